@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/LabelVolume.h"
+#include "Core/Progress.h"
+#include "LevelSet/LevelSet.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace myotet::levelset {
+
+/// How labels become level sets.
+struct LabelOptions {
+    /// Sample distance of the isotropic grid, mm; 0 chooses it from the voxel size.
+    double spacing = 0;
+    /// How far motion by mean curvature may move a sharp voxel corner, mm; 0 is no
+    /// smoothing; negative chooses it from the voxel size.
+    double smooth = -1;
+    /// Throws InputError naming the field, its value and the rule.
+    void validate() const;
+};
+
+/// One connected component of one label.
+struct Region {
+    std::int32_t label = 0;
+    int component = 0;           ///< 0 is the label's largest
+    std::int64_t voxels = 0;
+    double volume_labels = 0;    ///< voxels * volume of a voxel, mm^3
+    double volume_level_set = 0; ///< enclosed by phi = 0 after smoothing and partition, mm^3
+    double inscribed_radius = 0; ///< largest -phi, mm
+    bool smoothed_less = false;  ///< smoothing was held back to keep a thin part
+    LevelSet phi;
+};
+
+/// All regions in one local frame, whose axes follow the scan's.
+struct LabelLevelSets {
+    Frame frame;                 ///< local coordinates to the patient's
+    double spacing = 0;          ///< as chosen, mm
+    double smooth = 0;           ///< as chosen, mm
+    std::vector<Region> regions; ///< by label value, then by component
+};
+
+/// Turns the components of `labels` (6-connected voxels) into signed distances
+/// that share walls: fast marching, motion by mean curvature with
+/// reinitialisation, volume given back, and a partition in which the
+/// background, with every label not asked for, is one region more.
+/// Sources: [Teran05, sec. 5]; partition: Losasso, Shinar, Selle, Fedkiw (2006),
+/// Multiple interacting liquids, ACM Trans. Graph. 25(3).
+/// Throws InputError when a label is not in the volume, ResourceError when the
+/// grid would not fit, Interrupted.
+[[nodiscard]] LabelLevelSets from_labels(const LabelVolume& volume,
+                                         std::span<const std::int32_t> labels,
+                                         const LabelOptions& options, ProgressSink& progress);
+
+}  // namespace myotet::levelset

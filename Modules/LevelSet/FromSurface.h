@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Progress.h"
+#include "Core/TetMesh.h"
+#include "LevelSet/LevelSet.h"
+
+namespace myotet::levelset {
+
+/// How a closed surface becomes a level set.
+struct SurfaceOptions {
+    double spacing = 0;  ///< sample distance, mm; must be positive
+    double smooth = 0;   ///< how far motion by mean curvature may move a sharp corner, mm
+    void validate() const;
+};
+
+/// Signed distance to a closed surface, in the surface's own coordinates.
+/// Throws InputError when the surface is open or has no triangles (with the
+/// number of open edges and where one lies), ResourceError when the grid would
+/// not fit.
+[[nodiscard]] LevelSet from_surface(const TriMesh& surface, const SurfaceOptions& options,
+                                    ProgressSink& progress);
+
+}  // namespace myotet::levelset

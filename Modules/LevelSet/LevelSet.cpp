@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LevelSet/LevelSet.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace myotet::levelset {
+namespace {
+
+// A cell of eight samples and where in it a point lies.
+struct Cell {
+    const float* corner;  // sample (0, 0, 0)
+    std::ptrdiff_t dy, dz;
+    Vec3 t;               // fractions in [0, 1]
+    double inverse_spacing;
+};
+
+Cell locate(const LevelSet& phi, const Vec3& point) {
+    const Vec3 g = (point - phi.origin) / phi.spacing;
+    Index3 cell, brick;
+    for (int a = 0; a < 3; ++a) {
+        cell[a] = std::clamp(static_cast<int>(g[a]), 0, phi.bricks[a] * LevelSet::kBrickCells - 1);
+        brick[a] = cell[a] / LevelSet::kBrickCells;
+    }
+    const std::size_t slot =
+        (static_cast<std::size_t>(brick[2]) * phi.bricks[1] + brick[1]) * phi.bricks[0] + brick[0];
+    const std::int32_t number = phi.brick_of[slot];
+    if (number >= 0) {
+        constexpr int n = LevelSet::kBrickSamples, m = LevelSet::kBrickCells - 1;
+        const std::size_t at =
+            ((static_cast<std::size_t>(cell[2] & m)) * n + (cell[1] & m)) * n + (cell[0] & m);
+        return {phi.values.data() + static_cast<std::size_t>(number) * LevelSet::kBrickSize + at,
+                n,
+                n * n,
+                g - Vec3(cell[0], cell[1], cell[2]),
+                1 / phi.spacing};
+    }
+    const Vec3 c = (point - phi.origin) / phi.coarse_spacing;
+    Index3 coarse;
+    for (int a = 0; a < 3; ++a)
+        coarse[a] = std::clamp(static_cast<int>(c[a]), 0, phi.coarse_size[a] - 2);
+    const std::ptrdiff_t dy = phi.coarse_size[0], dz = dy * phi.coarse_size[1];
+    return {phi.coarse_values.data() + coarse[2] * dz + coarse[1] * dy + coarse[0], dy, dz,
+            c - Vec3(coarse[0], coarse[1], coarse[2]), 1 / phi.coarse_spacing};
+}
+
+Sample interpolate(const Cell& cell) {
+    const float* p = cell.corner;
+    const double x = cell.t.x(), y = cell.t.y(), z = cell.t.z();
+    const double d00 = p[1] - p[0];
+    const double d10 = p[cell.dy + 1] - p[cell.dy];
+    const double d01 = p[cell.dz + 1] - p[cell.dz];
+    const double d11 = p[cell.dy + cell.dz + 1] - p[cell.dy + cell.dz];
+    const double v00 = p[0] + x * d00, v10 = p[cell.dy] + x * d10;
+    const double v01 = p[cell.dz] + x * d01, v11 = p[cell.dy + cell.dz] + x * d11;
+    const double v0 = v00 + y * (v10 - v00), v1 = v01 + y * (v11 - v01);
+    const double dx0 = d00 + y * (d10 - d00), dx1 = d01 + y * (d11 - d01);
+    Sample s;
+    s.value = v0 + z * (v1 - v0);
+    s.gradient = cell.inverse_spacing *
+                 Vec3(dx0 + z * (dx1 - dx0),
+                      (v10 - v00) + z * ((v11 - v01) - (v10 - v00)), v1 - v0);
+    return s;
+}
+
+}  // namespace
+
+Box LevelSet::box() const {
+    Box b;
+    b.min = origin;
+    b.max = origin + spacing * kBrickCells * Vec3(bricks[0], bricks[1], bricks[2]);
+    return b;
+}
+
+std::size_t LevelSet::memory() const {
+    return sizeof(float) * (values.capacity() + coarse_values.capacity()) +
+           sizeof(std::int32_t) * brick_of.capacity();
+}
+
+Sample LevelSet::sample(const Vec3& point) const {
+    const Box b = box();
+    const Vec3 inside = point.cwiseMax(b.min).cwiseMin(b.max);
+    Sample s = interpolate(locate(*this, inside));
+    const Vec3 away = point - inside;
+    const double distance = away.norm();
+    if (distance > 0) {
+        s.value += distance;
+        s.gradient = away / distance;
+    }
+    return s;
+}
+
+double LevelSet::value(const Vec3& point) const { return sample(point).value; }
+
+std::array<double, 2> principal_curvatures(const LevelSet& phi, const Vec3& point, double step) {
+    // H: Hessian of phi; N = grad phi / |grad phi|; P = I - N N^T; the two
+    // eigenvalues of P H P / |grad phi| that do not belong to N [Teran05, sec. 5].
+    const double centre = phi.value(point);
+    Vec3 gradient;
+    Mat3 hessian;
+    std::array<double, 6> axis;
+    for (int a = 0; a < 3; ++a) {
+        const Vec3 e = step * Vec3::Unit(a);
+        axis[2 * a] = phi.value(point + e);
+        axis[2 * a + 1] = phi.value(point - e);
+        gradient[a] = (axis[2 * a] - axis[2 * a + 1]) / (2 * step);
+        hessian(a, a) = (axis[2 * a] - 2 * centre + axis[2 * a + 1]) / (step * step);
+    }
+    for (int a = 0; a < 3; ++a)
+        for (int b = a + 1; b < 3; ++b) {
+            const Vec3 p = step * (Vec3::Unit(a) + Vec3::Unit(b));
+            const Vec3 m = step * (Vec3::Unit(a) - Vec3::Unit(b));
+            hessian(a, b) = hessian(b, a) = (phi.value(point + p) + phi.value(point - p) -
+                                             phi.value(point + m) - phi.value(point - m)) /
+                                            (4 * step * step);
+        }
+    const double length = gradient.norm();
+    if (!(length > 1e-6)) return {0, 0};
+    const Vec3 n = gradient / length;
+    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+    Eigen::Matrix2d s;
+    s << u.dot(hessian * u), u.dot(hessian * v), v.dot(hessian * u), v.dot(hessian * v);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(s / length,
+                                                                 Eigen::EigenvaluesOnly);
+    return {solver.eigenvalues()[1], solver.eigenvalues()[0]};
+}
+
+}  // namespace myotet::levelset

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Geometry.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace myotet::levelset {
+
+/// phi and its gradient at a point.
+struct Sample {
+    double value = 0;              ///< mm, negative inside
+    Vec3 gradient = Vec3::Zero();  ///< of the interpolant, dimensionless
+};
+
+/// A signed distance in local coordinates (mm): negative inside, positive
+/// outside. Exact samples in a narrow band of bricks around the surface, and
+/// a coarse dense field everywhere else, so that values deep inside are right
+/// too and memory grows with surface area.
+///
+/// Fine sample (i, j, k) sits at origin + spacing * (i, j, k); a brick holds 8
+/// cells a side, that is 9 x 9 x 9 samples (the last layer is the next brick's
+/// first), so that interpolation never leaves a brick. Where a brick reaches
+/// past the band, its samples come from the coarse field.
+struct LevelSet {
+    static constexpr int kBrickCells = 8;
+    static constexpr int kBrickSamples = 9;
+    static constexpr int kBrickSize = kBrickSamples * kBrickSamples * kBrickSamples;
+
+    Vec3 origin = Vec3::Zero();          ///< position of fine sample (0, 0, 0), mm
+    double spacing = 0;                  ///< fine sample distance, mm
+    double band = 0;                     ///< |phi| up to here comes from fine samples, mm
+    Index3 bricks{0, 0, 0};              ///< bricks along each axis
+    std::vector<std::int32_t> brick_of;  ///< per brick, i fastest: number of its samples, or -1
+    std::vector<float> values;           ///< kBrickSize samples a stored brick, i fastest, mm
+
+    double coarse_spacing = 0;           ///< coarse sample distance, mm; same origin
+    Index3 coarse_size{0, 0, 0};         ///< coarse samples along each axis; covers all bricks
+    std::vector<float> coarse_values;    ///< i fastest, mm
+
+    /// Trilinear interpolation; outside the stored box, the value at the nearest
+    /// point of the box plus the distance to it (a bound on the true distance).
+    [[nodiscard]] double value(const Vec3& point) const;
+    /// The same with the gradient of the interpolant, in one pass.
+    [[nodiscard]] Sample sample(const Vec3& point) const;
+    /// The box that the samples cover.
+    [[nodiscard]] Box box() const;
+    /// Bytes held.
+    [[nodiscard]] std::size_t memory() const;
+};
+
+/// Principal curvatures (k1, k2) of the isosurface through `point`, 1/mm, for
+/// the outward normal: a sphere of radius R has k1 = k2 = 1/R. By central
+/// differences over `step` mm, projected on the tangent plane
+/// [Teran05, sec. 5]. |k1| + |k2| is the measure that refinement uses.
+[[nodiscard]] std::array<double, 2> principal_curvatures(const LevelSet& phi, const Vec3& point,
+                                                         double step);
+
+}  // namespace myotet::levelset

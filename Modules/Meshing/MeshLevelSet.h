@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Progress.h"
+#include "Core/TetMesh.h"
+#include "LevelSet/LevelSet.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace myotet::meshing {
+
+/// Longest edge allowed around a point of local coordinates, mm.
+using SizingFunction = std::function<double(const Vec3&)>;
+
+/// How a level set becomes tetrahedra.
+struct Options {
+    double edge_length = 0;            ///< target edge on the surface, mm; must be positive
+    double interior_edge_length = 0;   ///< how coarse the inside may grow, mm; 0: 4x edge_length
+    double smallest_edge_length = 0;   ///< how fine thin or curved parts may get, mm; 0: edge_length / 8
+    double curvature_factor = 0;       ///< refine where edge > factor / (|k1| + |k2|); 0: off
+    double thickness_factor = 0.5;     ///< refine where edge > factor * local thickness; 0: off
+    double volume = 0;                 ///< volume that the mesh shall have, mm^3; 0: as phi says
+    SizingFunction sizing;             ///< empty: none
+    /// Throws InputError naming the field, its value and the rule.
+    void validate() const;
+};
+
+/// Where the time went and what was done on the way.
+struct Summary {
+    double edge_length = 0;            ///< lattice edge used at the surface, mm
+    int levels = 0;                    ///< red levels below the coarsest
+    int selection_passes = 0;
+    std::int64_t candidate_tets = 0;
+    double volume_offset = 0;          ///< isovalue that the surface was fitted to, mm
+    double seconds_lattice = 0, seconds_select = 0, seconds_compress = 0;
+    std::vector<std::string> notes;    ///< what a user should know, a sentence each
+};
+
+struct Result {
+    TetMesh mesh;     ///< local coordinates, mm; labels empty
+    Summary summary;
+};
+
+/// Meshes the inside of one connected level set: lattice, candidate,
+/// compression [Teran05, sec. 3-6, 8]. The mesh is one component, positive,
+/// its boundary a manifold, with no tetrahedron of four boundary nodes and no
+/// interior edge between two boundary nodes.
+/// Throws InputError (options), MeshError, ResourceError, Interrupted.
+[[nodiscard]] Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
+                                    ProgressSink& progress);
+
+/// About how many tetrahedra a call would make, from volume and surface alone.
+[[nodiscard]] double forecast_tets(double volume, double area, const Options& options);
+
+/// The edge length at which a mesh has `tets` tetrahedra within `tolerance`
+/// (relative), found by building lattices and candidates.
+[[nodiscard]] double edge_length_for(const levelset::LevelSet& phi, double tets, Options options,
+                                     double tolerance, ProgressSink& progress);
+
+}  // namespace myotet::meshing
