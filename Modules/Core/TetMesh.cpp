@@ -2,15 +2,13 @@
 #include "Core/TetMesh.h"
 
 #include "Core/Errors.h"
+#include "Core/Parallel.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace myotet {
 namespace {
-
-// Face i lies opposite node i; its order is outward for a positive tetrahedron.
-constexpr int kFace[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i) {
     while (parent[i] != i) {
@@ -63,45 +61,50 @@ Vec3 centroid(const TetMesh& mesh) {
     return moment / total;
 }
 
-std::vector<Triangle> boundary_faces(const std::vector<Tet>& tets) {
+std::vector<Tet> face_neighbours(const std::vector<Tet>& tets) {
     // Bucket faces by their smallest node, then pair equal ones in the bucket.
     std::int32_t node_count = 0;
-    for (const Tet& t : tets) node_count = std::max(node_count, *std::max_element(t.begin(), t.end()) + 1);
+    for (const Tet& t : tets)
+        node_count = std::max(node_count, *std::max_element(t.begin(), t.end()) + 1);
     std::vector<std::int64_t> start(static_cast<std::size_t>(node_count) + 1, 0);
-    const auto corners = [&](std::int64_t slot) {
-        const Tet& t = tets[slot / 4];
-        const int* f = kFace[slot % 4];
-        return Triangle{t[f[0]], t[f[1]], t[f[2]]};
-    };
-    const std::int64_t slots = 4 * static_cast<std::int64_t>(tets.size());
-    for (std::int64_t s = 0; s < slots; ++s) {
-        const Triangle f = corners(s);
-        ++start[std::min({f[0], f[1], f[2]}) + 1];
-    }
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<FaceRecord> records(slots);
-    std::vector<std::int64_t> next(start.begin(), start.end() - 1);
-    for (std::int64_t s = 0; s < slots; ++s) {
-        Triangle f = corners(s);
-        std::sort(f.begin(), f.end());
-        records[next[f[0]]++] = {{f[1], f[2]}, static_cast<std::int32_t>(s)};
-    }
-    std::vector<char> single(slots, 0);
-    for (std::int32_t n = 0; n < node_count; ++n) {
-        const auto first = records.begin() + start[n], last = records.begin() + start[n + 1];
-        std::sort(first, last, [](const FaceRecord& a, const FaceRecord& b) {
-            return a.rest != b.rest ? a.rest < b.rest : a.slot < b.slot;
-        });
-        for (auto it = first; it != last;) {
-            auto end = it;
-            while (end != last && end->rest == it->rest) ++end;
-            if (end - it == 1) single[it->slot] = 1;
-            it = end;
+    for (const Tet& t : tets)
+        for (int i = 0; i < 4; ++i) {
+            const Triangle f = face_of(t, i);
+            ++start[std::min({f[0], f[1], f[2]}) + 1];
         }
-    }
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<FaceRecord> records(4 * tets.size());
+    std::vector<std::int64_t> next(start.begin(), start.end() - 1);
+    for (std::size_t t = 0; t < tets.size(); ++t)
+        for (int i = 0; i < 4; ++i) {
+            Triangle f = face_of(tets[t], i);
+            std::sort(f.begin(), f.end());
+            records[next[f[0]]++] = {{f[1], f[2]}, static_cast<std::int32_t>(4 * t + i)};
+        }
+    std::vector<Tet> neighbours(tets.size(), Tet{-1, -1, -1, -1});
+    parallel_for(0, node_count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const auto first = records.begin() + start[n], last = records.begin() + start[n + 1];
+            std::sort(first, last, [](const FaceRecord& a, const FaceRecord& b) {
+                return a.rest != b.rest ? a.rest < b.rest : a.slot < b.slot;
+            });
+            for (auto it = first; it != last && it + 1 != last; ++it)
+                if (it->rest == (it + 1)->rest) {
+                    const std::int32_t a = it->slot, b = (it + 1)->slot;
+                    neighbours[a / 4][a % 4] = b / 4;
+                    neighbours[b / 4][b % 4] = a / 4;
+                }
+        }
+    });
+    return neighbours;
+}
+
+std::vector<Triangle> boundary_faces(const std::vector<Tet>& tets) {
+    const std::vector<Tet> neighbours = face_neighbours(tets);
     std::vector<Triangle> faces;
-    for (std::int64_t s = 0; s < slots; ++s)
-        if (single[s]) faces.push_back(corners(s));
+    for (std::size_t t = 0; t < tets.size(); ++t)
+        for (int i = 0; i < 4; ++i)
+            if (neighbours[t][i] < 0) faces.push_back(face_of(tets[t], i));
     return faces;
 }
 

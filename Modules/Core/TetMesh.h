@@ -40,6 +40,17 @@ struct TriMesh {
 /// Volume-weighted centroid of a tetrahedral mesh, mm.
 [[nodiscard]] Vec3 centroid(const TetMesh& mesh);
 
+/// |T| x 4: the tetrahedron behind the face opposite each node, or -1.
+/// Cost: O(|T|), on all threads.
+[[nodiscard]] std::vector<Tet> face_neighbours(const std::vector<Tet>& tets);
+
+/// Corners of the face opposite node `face` of a tetrahedron, outward for a
+/// positive one.
+[[nodiscard]] inline Triangle face_of(const Tet& t, int face) {
+    constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    return {t[corner[face][0]], t[corner[face][1]], t[corner[face][2]]};
+}
+
 /// Faces that belong to exactly one tetrahedron, oriented outwards, in the
 /// order of their tetrahedra; indices refer to the tetrahedral mesh's points.
 /// Cost: O(|T|).
