@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LevelSet/Band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myotet::levelset {
+namespace {
+
+// The part of a block that an axis of a gathered box takes from the lower
+// neighbour (side -1), the block itself (0) or the upper neighbour (1).
+struct Part {
+    int begin, end;  // in the gathered box
+    int first;       // sample of the source block that lands at `begin`
+};
+
+Part part_of(int side, int low, int high) {
+    constexpr int n = Band::kSide;
+    if (side < 0) return {0, low, n - low};
+    if (side > 0) return {low + n, low + n + high, 0};
+    return {low, low + n, 0};
+}
+
+}  // namespace
+
+void gather(const Band& band, const Index3& b, int low, int high, float* out) {
+    constexpr int n = Band::kSide;
+    const int side = low + n + high;
+    for (int dz = low ? -1 : 0; dz <= (high ? 1 : 0); ++dz)
+        for (int dy = low ? -1 : 0; dy <= (high ? 1 : 0); ++dy)
+            for (int dx = low ? -1 : 0; dx <= (high ? 1 : 0); ++dx) {
+                const Part x = part_of(dx, low, high), y = part_of(dy, low, high),
+                           z = part_of(dz, low, high);
+                const std::int32_t number = band.find({b[0] + dx, b[1] + dy, b[2] + dz});
+                const float* source = number >= 0 ? band.block(number) : nullptr;
+                const float empty = band.empty_value(number);
+                for (int k = z.begin; k < z.end; ++k)
+                    for (int j = y.begin; j < y.end; ++j) {
+                        float* row = out + (k * side + j) * side;
+                        if (!source) {
+                            std::fill(row + x.begin, row + x.end, empty);
+                            continue;
+                        }
+                        const float* from =
+                            source + ((k - z.begin + z.first) * n + (j - y.begin + y.first)) * n +
+                            x.first;
+                        std::copy(from, from + (x.end - x.begin), row + x.begin);
+                    }
+            }
+}
+
+void mark_unstored_blocks(Band& band) {
+    // Along a row of blocks the sign can change only inside stored ones.
+    constexpr int last = Band::kSide - 1;
+    std::size_t slot = 0;
+    for (int k = 0; k < band.blocks[2]; ++k)
+        for (int j = 0; j < band.blocks[1]; ++j) {
+            std::int32_t now = Band::kOutside;
+            for (int i = 0; i < band.blocks[0]; ++i, ++slot) {
+                std::int32_t& number = band.block_of[slot];
+                if (number >= 0)
+                    now = band.block(number)[last] < 0 ? Band::kInside : Band::kOutside;
+                else
+                    number = now;
+            }
+        }
+}
+
+Sample sample(const Band& band, const Vec3& point) {
+    constexpr int n = Band::kSide;
+    const Vec3 g = (point - band.origin) / band.spacing;
+    Index3 cell;
+    Vec3 t;
+    for (int a = 0; a < 3; ++a) {
+        cell[a] = static_cast<int>(std::clamp(std::floor(g[a]), 0.0, band.blocks[a] * double(n) - 2));
+        t[a] = std::clamp(g[a] - cell[a], 0.0, 1.0);
+    }
+    double v[2][2][2];
+    for (int c = 0; c < 2; ++c)
+        for (int b = 0; b < 2; ++b)
+            for (int a = 0; a < 2; ++a) {
+                const int i = cell[0] + a, j = cell[1] + b, k = cell[2] + c;
+                const std::int32_t number = band.block_of[band.slot({i / n, j / n, k / n})];
+                v[c][b][a] = number >= 0
+                                 ? band.block(number)[((k % n) * n + j % n) * n + i % n]
+                                 : band.empty_value(number);
+            }
+    double e[2][2], ex[2][2];  // interpolated along x, and its slope
+    for (int c = 0; c < 2; ++c)
+        for (int b = 0; b < 2; ++b) {
+            ex[c][b] = v[c][b][1] - v[c][b][0];
+            e[c][b] = v[c][b][0] + t.x() * ex[c][b];
+        }
+    const double e0 = e[0][0] + t.y() * (e[0][1] - e[0][0]);
+    const double e1 = e[1][0] + t.y() * (e[1][1] - e[1][0]);
+    const double x0 = ex[0][0] + t.y() * (ex[0][1] - ex[0][0]);
+    const double x1 = ex[1][0] + t.y() * (ex[1][1] - ex[1][0]);
+    const double y0 = e[0][1] - e[0][0], y1 = e[1][1] - e[1][0];
+    return {e0 + t.z() * (e1 - e0),
+            Vec3(x0 + t.z() * (x1 - x0), y0 + t.z() * (y1 - y0), e1 - e0) / band.spacing};
+}
+
+}  // namespace myotet::levelset
