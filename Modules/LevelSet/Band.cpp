@@ -21,6 +21,13 @@ Part part_of(int side, int low, int high) {
     return {low, low + n, 0};
 }
 
+float value_at(const Band& band, const Index3& p) {
+    constexpr int n = Band::kSide;
+    const std::int32_t number = band.block_of[band.slot({p[0] / n, p[1] / n, p[2] / n})];
+    return number >= 0 ? band.block(number)[((p[2] % n) * n + p[1] % n) * n + p[0] % n]
+                       : band.empty_value(number);
+}
+
 }  // namespace
 
 void gather(const Band& band, const Index3& b, int low, int high, float* out) {
@@ -72,19 +79,23 @@ Sample sample(const Band& band, const Vec3& point) {
     Index3 cell;
     Vec3 t;
     for (int a = 0; a < 3; ++a) {
-        cell[a] = static_cast<int>(std::clamp(std::floor(g[a]), 0.0, band.blocks[a] * double(n) - 2));
+        cell[a] = std::clamp(static_cast<int>(g[a]), 0, band.blocks[a] * n - 2);
         t[a] = std::clamp(g[a] - cell[a], 0.0, 1.0);
     }
     double v[2][2][2];
-    for (int c = 0; c < 2; ++c)
-        for (int b = 0; b < 2; ++b)
-            for (int a = 0; a < 2; ++a) {
-                const int i = cell[0] + a, j = cell[1] + b, k = cell[2] + c;
-                const std::int32_t number = band.block_of[band.slot({i / n, j / n, k / n})];
-                v[c][b][a] = number >= 0
-                                 ? band.block(number)[((k % n) * n + j % n) * n + i % n]
-                                 : band.empty_value(number);
-            }
+    const int i = cell[0] % n, j = cell[1] % n, k = cell[2] % n;
+    const std::int32_t home = band.block_of[band.slot({cell[0] / n, cell[1] / n, cell[2] / n})];
+    if (home >= 0 && i < n - 1 && j < n - 1 && k < n - 1) {
+        const float* from = band.block(home) + (k * n + j) * n + i;
+        for (int c = 0; c < 2; ++c)
+            for (int b = 0; b < 2; ++b)
+                for (int a = 0; a < 2; ++a) v[c][b][a] = from[(c * n + b) * n + a];
+    } else {
+        for (int c = 0; c < 2; ++c)
+            for (int b = 0; b < 2; ++b)
+                for (int a = 0; a < 2; ++a)
+                    v[c][b][a] = value_at(band, {cell[0] + a, cell[1] + b, cell[2] + c});
+    }
     double e[2][2], ex[2][2];  // interpolated along x, and its slope
     for (int c = 0; c < 2; ++c)
         for (int b = 0; b < 2; ++b) {

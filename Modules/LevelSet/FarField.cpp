@@ -2,6 +2,7 @@
 #include "LevelSet/FarField.h"
 
 #include "Core/Parallel.h"
+#include "LevelSet/Redistance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,29 +31,6 @@ struct Lattice {
     }
 };
 
-// Newton steps x - phi grad phi / |grad phi|^2 with the interpolant's gradient,
-// until x is on the interface. False when it does not get there: a point short
-// of the interface would make distances too small.
-bool pull(const Band& band, Point& p) {
-    constexpr int kSteps = 6;
-    constexpr double kClose = 0.02;  // fine spacings
-    for (int step = 0; step < kSteps; ++step) {
-        const Sample s = sample(band, band.origin + band.spacing * p.cast<double>());
-        if (std::abs(s.value) < kClose * band.spacing) return true;
-        const double length = s.gradient.norm();
-        if (!(length > 0.1)) return false;
-        // At the band's edge clamped values make the gradient too short.
-        p -= (s.value / std::max(length, 0.8) / length / band.spacing * s.gradient).cast<float>();
-    }
-    return false;
-}
-
-Vec3 normal(const Band& band, const Point& p) {
-    const Vec3 g = sample(band, band.origin + band.spacing * p.cast<double>()).gradient;
-    const double length = g.norm();
-    return length > 0.1 ? Vec3(g / length) : Vec3(Vec3::Zero());
-}
-
 void seed(const Band& band, Lattice& lattice, int k) {
     constexpr int n = Band::kSide;
     for (int j = 0; j < lattice.size[1]; ++j)
@@ -68,10 +46,10 @@ void seed(const Band& band, Lattice& lattice, int k) {
             lattice.squared[here] = kUnknown;
             if (!lattice.known[here]) continue;
             const Point p = Lattice::place(i, j, k);
-            Point foot = p;
+            Vec3 foot = band.origin + band.spacing * p.cast<double>();
             if (!pull(band, foot)) continue;
-            lattice.foot[here] = foot;
-            lattice.squared[here] = (p - foot).squaredNorm();
+            lattice.foot[here] = ((foot - band.origin) / band.spacing).cast<float>();
+            lattice.squared[here] = (p - lattice.foot[here]).squaredNorm();
         }
 }
 
@@ -107,35 +85,21 @@ void sweep_all(Lattice& lattice) {
 }
 
 // A foot inherited from a neighbour is a few fine spacings off along the
-// interface: step towards the sample in the tangent plane, pull back to the
-// interface, keep what is nearer.
-void slide(const Band& band, Lattice& lattice, int k) {
+// interface.
+void slide_feet(const Band& band, Lattice& lattice, int k) {
     constexpr int kSteps = 3;
-    constexpr float kLongest = 3.0f;  // fine spacings; the pull stays well inside the band
     for (int j = 0; j < lattice.size[1]; ++j)
         for (int i = 0; i < lattice.size[0]; ++i) {
             const std::size_t here = lattice.at(i, j, k);
             if (lattice.squared[here] == kUnknown) continue;
             const Point p = Lattice::place(i, j, k);
-            float length = kLongest;
-            for (int step = 0; step < kSteps; ++step) {
-                const Point foot = lattice.foot[here];
-                const Vec3 n = normal(band, foot);
-                const Vec3 away = (p - foot).cast<double>();
-                Vec3 tangent = away - away.dot(n) * n;
-                const double reach = tangent.norm();
-                if (!(reach > 0.05)) break;
-                if (reach > length) tangent *= length / reach;
-                Point moved = foot + tangent.cast<float>();
-                const bool arrived = pull(band, moved);
-                const float d = (p - moved).squaredNorm();
-                if (arrived && d < lattice.squared[here]) {
-                    lattice.squared[here] = d;
-                    lattice.foot[here] = moved;
-                } else {
-                    length *= 0.3f;
-                }
-            }
+            const auto in_mm = [&](const Point& q) {
+                return Vec3(band.origin + band.spacing * q.cast<double>());
+            };
+            Vec3 foot = in_mm(lattice.foot[here]);
+            slide(band, in_mm(p), kSteps, foot);
+            lattice.foot[here] = ((foot - band.origin) / band.spacing).cast<float>();
+            lattice.squared[here] = (p - lattice.foot[here]).squaredNorm();
         }
 }
 
@@ -158,9 +122,9 @@ std::vector<float> far_field(const Band& band) {
     };
     each_layer([&](int k) { seed(band, lattice, k); });
     sweep_all(lattice);
-    each_layer([&](int k) { slide(band, lattice, k); });
+    each_layer([&](int k) { slide_feet(band, lattice, k); });
     sweep_all(lattice);
-    each_layer([&](int k) { slide(band, lattice, k); });
+    each_layer([&](int k) { slide_feet(band, lattice, k); });
     for (std::size_t i = 0; i < count; ++i)
         if (!lattice.known[i]) {
             const double d = std::sqrt(double(lattice.squared[i])) * band.spacing;

@@ -3,6 +3,7 @@
 
 #include "Core/Errors.h"
 #include "LevelSet/Band.h"
+#include "LevelSet/Redistance.h"
 #include "LevelSet/SurfaceBand.h"
 
 #include <algorithm>
@@ -15,6 +16,9 @@ namespace {
 
 // Half width of the band, in samples.
 constexpr double kHalfWidth = 4;
+// What the conversion of the triangles fills, in samples: both ends of every
+// edge that the surface cuts.
+constexpr double kExactWidth = 1.25;
 
 struct EdgeUse {
     std::int32_t low, high;
@@ -123,7 +127,11 @@ LevelSet from_surface(const TriMesh& surface, const SurfaceOptions& options,
     require_valid(surface);
     require_memory(surface, options);
     progress.report("distances", 0);
-    const Band band = surface_band(surface, options.spacing, kHalfWidth, progress);
+    // OpenVDB's values are exact next to the surface and drift by up to a
+    // quarter of the spacing two samples away; ours hold to the band's edge.
+    Band band = surface_band(surface, options.spacing, kExactWidth, progress);
+    band = refit(band, static_cast<float>(kHalfWidth * options.spacing));
+    redistance(band, Seeds::keep, 2);
     progress.report("level sets", 0);
     LevelSet phi = assemble(band);
     progress.report("level sets", 1);
