@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Core/Errors.h"
+#include "Segmentation/Formats.h"
+#include "Segmentation/ItkImage.h"
+#include "Segmentation/TextHeader.h"
+
+#include <bit>
+#include <charconv>
+#include <sstream>
+
+namespace myotet::segmentation {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the voxels lie and how they are stored.
+struct Storage {
+    fs::path file;
+    std::uint64_t offset = 0;
+    Coding coding = Coding::plain;
+    bool ascii = false;
+};
+
+/// Teem reads an unknown spacing as 1; a label volume must know it.
+void check_spacing_fields(const TextHeader& header, const fs::path& file) {
+    for (const char* field : {"spacings", "space directions", "space origin"}) {
+        const std::string text = lower_case(header.get(field));
+        if (text.find("nan") != std::string::npos || text.find("inf") != std::string::npos)
+            throw InputError(file.string() + ": the header's " + field + " reads '" + text +
+                             "', but spacing and place must be finite numbers; correct the header");
+    }
+}
+
+/// Millimetres per unit of length that the header uses.
+double unit_in_mm(const TextHeader& header, const fs::path& file) {
+    const std::string text = lower_case(header.get("space units"));
+    const auto open = text.find('"');
+    if (open == std::string::npos) return 1;
+    const std::string unit = text.substr(open + 1, text.find('"', open + 1) - open - 1);
+    if (unit.empty() || unit == "mm" || unit == "millimeter" || unit == "millimetre") return 1;
+    if (unit == "cm") return 10;
+    if (unit == "m") return 1000;
+    if (unit == "um" || unit == "\xc2\xb5m" || unit == "micron") return 1e-3;
+    throw InputError(file.string() + ": the header's space units are '" + unit +
+                     "', but mm, cm, m or um are known; correct the header");
+}
+
+std::uint64_t data_bytes(const ItkHeader& itk) {
+    std::uint64_t bytes = 8;
+    switch (itk.type) {
+        case ScalarType::int8: case ScalarType::uint8: bytes = 1; break;
+        case ScalarType::int16: case ScalarType::uint16: bytes = 2; break;
+        case ScalarType::int32: case ScalarType::uint32: case ScalarType::float32: bytes = 4; break;
+        default: break;
+    }
+    for (const int n : itk.size) bytes *= static_cast<std::uint64_t>(n);
+    return bytes;
+}
+
+/// The byte at which line `count` starts, counted from `offset` on.
+std::uint64_t skip_lines(const fs::path& file, std::uint64_t offset, std::int64_t count) {
+    if (count <= 0) return offset;
+    ByteStream stream(file, Coding::plain, offset);
+    for (char c = 0; count > 0; ++offset) {
+        stream.read_exactly(&c, 1, "lines to skip");
+        if (c == '\n') --count;
+    }
+    return offset;
+}
+
+Storage find_storage(const TextHeader& header, const fs::path& file) {
+    Storage storage{file, header.data_offset, Coding::plain, false};
+    std::string data = header.get("data file");
+    if (data.empty()) data = header.get("datafile");
+    if (!data.empty()) storage = {data_file_beside(file, data), 0, Coding::plain, false};
+    const std::string encoding = lower_case(header.get("encoding"));
+    if (encoding == "gzip" || encoding == "gz") {
+        storage.coding = Coding::deflate;
+    } else if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
+        storage.ascii = true;
+    } else if (encoding != "raw") {
+        throw InputError(file.string() + ": voxels are stored with the encoding '" + encoding +
+                         "', but raw, gzip and ascii are read; save it with gzip");
+    }
+    return storage;
+}
+
+ByteStream open_data(const TextHeader& header, const Storage& storage, const ItkHeader& itk,
+                     const fs::path& file) {
+    const auto number = [&](const char* spaced, const char* joined) {
+        std::string text = header.get(spaced);
+        if (text.empty()) text = header.get(joined);
+        return text.empty() ? std::int64_t{0} : whole_number(text, spaced, file);
+    };
+    std::uint64_t offset =
+        skip_lines(storage.file, storage.offset, number("line skip", "lineskip"));
+    const std::int64_t skip = number("byte skip", "byteskip");
+    if (skip < 0) {  // the data are what the file ends with
+        const std::uint64_t bytes = data_bytes(itk), size = fs::file_size(storage.file);
+        return ByteStream(storage.file, storage.coding, bytes <= size ? size - bytes : 0);
+    }
+    ByteStream stream(storage.file, storage.coding, offset);
+    stream.skip(static_cast<std::uint64_t>(skip), "bytes to skip");
+    return stream;
+}
+
+std::optional<std::array<double, 3>> parse_colour(const std::string& text) {
+    std::istringstream in(text);
+    std::array<double, 3> colour{};
+    for (double& channel : colour)
+        if (!(in >> channel)) return {};
+    return colour;
+}
+
+/// 3D Slicer's SegmentN_LabelValue, _Name (or _ID) and _Color.
+std::map<std::int32_t, LabelName> segment_names(const TextHeader& header) {
+    std::map<std::int32_t, LabelName> names;
+    constexpr std::string_view kPrefix = "Segment", kSuffix = "_LabelValue";
+    for (const auto& [key, value] : header.metadata) {
+        if (!key.starts_with(kPrefix) || !key.ends_with(kSuffix)) continue;
+        const std::string segment = key.substr(0, key.size() - kSuffix.size());
+        std::int32_t label = 0;
+        if (std::from_chars(value.data(), value.data() + value.size(), label).ec != std::errc())
+            continue;
+        const auto get = [&](const char* what) {
+            const auto it = header.metadata.find(segment + what);
+            return it == header.metadata.end() ? std::string() : it->second;
+        };
+        LabelName name{get("_Name").empty() ? get("_ID") : get("_Name"),
+                       parse_colour(get("_Color"))};
+        if (!name.name.empty()) names.emplace(label, std::move(name));
+    }
+    return names;
+}
+
+}  // namespace
+
+LabelFile read_nrrd(const fs::path& file) {
+    const TextHeader header = read_nrrd_header(file);
+    check_spacing_fields(header, file);
+    const Storage storage = find_storage(header, file);
+    const ItkHeader itk = read_itk_header(file, ItkFormat::nrrd);
+    LabelFile result;
+    result.volume.size = itk.size;
+    result.volume.index_to_lps = itk.index_to_lps;
+    result.volume.index_to_lps.affine() *= unit_in_mm(header, file);
+    if (header.get("space directions").empty())
+        result.warnings.push_back(
+            file.string() + (header.get("spacings").empty()
+                                 ? " does not say its spacing; 1 mm was assumed."
+                                 : " says nothing of its place in the patient; its axes were taken "
+                                   "as left, posterior and superior."));
+    result.volume.names = segment_names(header);
+
+    const bool stored_big = lower_case(header.get("endian")) == "big";
+    ByteStream stream = open_data(header, storage, itk, file);
+    const ScalarLayout layout{itk.type, stored_big != (std::endian::native == std::endian::big),
+                              storage.ascii, itk.size};
+    result.volume.values = read_scalars(stream, layout, result.warnings);
+    return result;
+}
+
+void write_nrrd(const LabelVolume& volume, const fs::path& file) {
+    std::map<std::string, std::string> metadata;
+    int number = 0;
+    for (const auto& [value, label] : volume.names) {
+        const std::string segment = "Segment" + std::to_string(number++);
+        metadata[segment + "_ID"] = segment;
+        metadata[segment + "_Name"] = label.name;
+        metadata[segment + "_LabelValue"] = std::to_string(value);
+        metadata[segment + "_Layer"] = "0";
+        if (label.colour) {
+            std::ostringstream text;
+            text << (*label.colour)[0] << ' ' << (*label.colour)[1] << ' ' << (*label.colour)[2];
+            metadata[segment + "_Color"] = text.str();
+        }
+    }
+    write_itk(volume, file, ItkFormat::nrrd, metadata);
+}
+
+}  // namespace myotet::segmentation

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Segmentation/TextHeader.h"
+
+#include "Core/Errors.h"
+
+#include <charconv>
+#include <fstream>
+
+namespace myotet::segmentation {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Headers of segmentations with hundreds of segments take some 100 kB.
+constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{1} << 24;
+
+/// Lines of a file that turns into binary data at some point.
+class HeaderLines {
+public:
+    explicit HeaderLines(const fs::path& file) : file_(file), in_(file, std::ios::binary) {
+        if (!in_)
+            throw IoError(file.string() +
+                          ": cannot be opened; check that the file exists and may be read");
+    }
+
+    /// The next line without its end; false at the end of the file.
+    bool next(std::string& line) {
+        line.clear();
+        for (int c = in_.get(); c != std::ifstream::traits_type::eof(); c = in_.get()) {
+            if (++offset_ > kMostHeaderBytes)
+                throw InputError(file_.string() +
+                                 ": the header does not end within 16 MB; the file is damaged: "
+                                 "copy or export it again");
+            if (c == '\n') {
+                if (!line.empty() && line.back() == '\r') line.pop_back();
+                return true;
+            }
+            line += static_cast<char>(c);
+        }
+        return !line.empty();
+    }
+
+    [[nodiscard]] std::uint64_t offset() const { return offset_; }
+
+private:
+    const fs::path& file_;
+    std::ifstream in_;
+    std::uint64_t offset_ = 0;
+};
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    const auto first = text.find_first_not_of(kSpace);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+}
+
+std::string TextHeader::get(const std::string& key) const {
+    const auto it = fields.find(key);
+    return it == fields.end() ? std::string() : it->second;
+}
+
+std::int64_t whole_number(const std::string& text, const std::string& field,
+                          const fs::path& file) {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+        throw InputError(file.string() + ": the header's " + field + " reads '" +
+                         text.substr(0, 40) + "' but must be a whole number; export the file again");
+    return value;
+}
+
+TextHeader read_nrrd_header(const fs::path& file) {
+    HeaderLines lines(file);
+    std::string line;
+    if (!lines.next(line) || !line.starts_with("NRRD"))
+        throw InputError(file.string() +
+                         ": does not start with 'NRRD', so it is no NRRD file; convert it to "
+                         ".nrrd or .nii.gz");
+    TextHeader header;
+    while (lines.next(line) && !line.empty()) {
+        if (line.front() == '#') continue;
+        const auto colon = line.find(':');
+        if (colon == std::string::npos) continue;  // ITK complains where it matters
+        const bool metadata = colon + 1 < line.size() && line[colon + 1] == '=';
+        const std::string_view all = line;
+        const std::string key(trimmed(all.substr(0, colon)));
+        const std::string value(trimmed(all.substr(colon + (metadata ? 2 : 1))));
+        if (metadata) header.metadata[key] = value;
+        else header.fields[lower_case(key)] = value;
+    }
+    header.data_offset = lines.offset();
+    return header;
+}
+
+TextHeader read_metaimage_header(const fs::path& file) {
+    HeaderLines lines(file);
+    TextHeader header;
+    std::string line;
+    while (lines.next(line)) {
+        const auto equals = line.find('=');
+        if (equals == std::string::npos) {
+            if (trimmed(line).empty()) continue;
+            break;
+        }
+        const std::string_view all = line;
+        const std::string key = lower_case(trimmed(all.substr(0, equals)));
+        header.fields[key] = trimmed(all.substr(equals + 1));
+        if (key == "elementdatafile") {
+            header.data_offset = lines.offset();
+            return header;
+        }
+    }
+    throw InputError(file.string() +
+                     ": the header has no line 'ElementDataFile = ...', so it is no MetaImage or "
+                     "cut short; export the file again");
+}
+
+fs::path data_file_beside(const fs::path& header, const std::string& name) {
+    if (lower_case(name).starts_with("list") || name.find('%') != std::string::npos)
+        throw InputError(header.string() + ": its voxels lie in several files ('" + name +
+                         "'), which is not supported; save the volume as one file");
+    const fs::path data = fs::path(name).is_absolute() ? fs::path(name)
+                                                       : header.parent_path() / name;
+    std::error_code ignored;
+    if (!fs::is_regular_file(data, ignored))
+        throw IoError(header.string() + ": its voxels should lie in " + data.string() +
+                      ", which does not exist; keep the two files together");
+    return data;
+}
+
+}  // namespace myotet::segmentation
