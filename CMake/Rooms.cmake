@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+# The rooms, in the order in which data flows, and who may include whom.
+# CMake/CheckIncludes.cmake holds the sources to it.
+
+set(myotet_rooms Core Segmentation LevelSet Surface Quality Lattice Elasticity Dynamics Meshing
+                 Cage MeshFiles Report)
+
+# <room>_may_include: rooms besides itself.
+set(Core_may_include)
+set(Segmentation_may_include Core)
+set(LevelSet_may_include Core)
+set(Surface_may_include Core)
+set(Quality_may_include Core)
+set(Lattice_may_include Core)
+set(Elasticity_may_include Core)
+set(Dynamics_may_include Core Elasticity)
+set(Meshing_may_include Core LevelSet Lattice Quality Elasticity Dynamics)
+set(Cage_may_include Core Surface Quality Lattice)
+set(MeshFiles_may_include Core)
+set(Report_may_include Core Quality MeshFiles)
+
+# Third-party headers: a pattern of the header's name, then the rooms whose
+# .cpp files may include it. "Applications" is no room, but owns some.
+set(myotet_owned_headers itk nifti zlib openvdb vtk tbb CLI spdlog nlohmann)
+set(itk_pattern "^itk[A-Z]")
+set(itk_owners Segmentation LevelSet)
+set(nifti_pattern "^nifti")
+set(nifti_owners Segmentation)
+set(zlib_pattern "^zlib\\.h$")
+set(zlib_owners Segmentation)
+set(openvdb_pattern "^openvdb/")
+set(openvdb_owners LevelSet)
+set(vtk_pattern "^vtk[A-Z]")
+set(vtk_owners MeshFiles Report)
+set(tbb_pattern "^tbb/")
+set(tbb_owners Core)
+set(CLI_pattern "^CLI/")
+set(CLI_owners Applications)
+set(spdlog_pattern "^spdlog/")
+set(spdlog_owners Applications)
+set(nlohmann_pattern "^nlohmann/")
+set(nlohmann_owners Applications)
+
+# Headers that any file may include: Eigen, the standard library (names
+# without a dot and without a folder) and a few of POSIX.
+set(myotet_free_headers "^Eigen/|^[a-z_0-9]+$|^(unistd|stdlib|fcntl)\\.h$|^sys/[a-z]+\\.h$")
