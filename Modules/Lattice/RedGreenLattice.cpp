@@ -44,6 +44,7 @@ std::int32_t RedGreenLattice::node_at(const Index3& c) {
     const std::int32_t node = map_.find_or_insert(c, fresh);
     if (node == fresh) {
         coordinates_.push_back(c);
+        ends_.push_back({-1, -1});
         touched_.push_back(0);
     }
     return node;
@@ -54,7 +55,16 @@ std::int32_t RedGreenLattice::midpoint(std::int32_t a, std::int32_t b) {
     const std::size_t before = coordinates_.size();
     const std::int32_t m =
         node_at({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
-    if (coordinates_.size() != before) touched_[a] = touched_[b] = 1;
+    if (coordinates_.size() != before) {
+        ends_[m] = {a, b};
+        // A coarser neighbour may know this edge only as half of one of its own,
+        // or as joining midpoints of two: it is found through their ends.
+        for (const std::int32_t n : {a, b}) {
+            touched_[n] = 1;
+            for (const std::int32_t end : ends_[n])
+                if (end >= 0) touched_[end] = 1;
+        }
+    }
     return m;
 }
 
@@ -133,7 +143,10 @@ bool RedGreenLattice::neighbour_too_fine(const Tet& t,
 
 std::size_t RedGreenLattice::close() {
     std::size_t refined = 0;
-    std::vector<char> dirty(coordinates_.size(), 1);  // the first sweep looks at all
+    // A tetrahedron is looked at when it is new, and again when two of its nodes
+    // are ends of edges bisected since.
+    std::vector<std::size_t> seen(levels_.size(), 0);
+    std::vector<char> dirty;
     for (bool changed = true; changed;) {
         changed = false;
         std::fill(touched_.begin(), touched_.end(), 0);
@@ -148,7 +161,8 @@ std::size_t RedGreenLattice::close() {
                     const auto is_dirty = [&](std::int32_t n) {
                         return static_cast<std::size_t>(n) >= dirty.size() || dirty[n];
                     };
-                    if (is_dirty(t[0]) + is_dirty(t[1]) + is_dirty(t[2]) + is_dirty(t[3]) < 2)
+                    if (i < seen[level] &&
+                        is_dirty(t[0]) + is_dirty(t[1]) + is_dirty(t[2]) + is_dirty(t[3]) < 2)
                         continue;
                     std::array<std::int32_t, 6> mids;
                     const unsigned pattern = bisected_edges(t, mids);
@@ -173,6 +187,7 @@ std::size_t RedGreenLattice::close() {
                 }
                 changed = true;
             }
+            seen[level] = count;
         }
         dirty = touched_;
         for (std::size_t i = nodes_before; i < dirty.size(); ++i) dirty[i] = 1;

@@ -106,7 +106,8 @@ private:
     Index3 cells_{0, 0, 0};
     std::vector<Index3> coordinates_;
     std::vector<float> values_;
-    std::vector<char> touched_;      // nodes at the ends of edges bisected since the last sweep
+    std::vector<std::array<std::int32_t, 2>> ends_;  // of the edge a node bisects, or -1
+    std::vector<char> touched_;      // nodes near edges bisected since the last sweep
     std::vector<Level> levels_;
     NodeMap map_;
 };

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Meshing/MeshLevelSet.h"
+
+#include "Core/Errors.h"
+#include "Meshing/Compress.h"
+#include "Meshing/Refine.h"
+#include "Meshing/Select.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace myotet::meshing {
+namespace {
+
+// Trials of find_edge_length: each costs a candidate.
+constexpr int kSearchTrials = 8;
+// Measured on closed shapes: how thick the layer of small tetrahedra is.
+constexpr double kShellEdges = 2.0;
+
+class Stopwatch {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void require(bool holds, const char* field, double value, const char* rule) {
+    if (!holds)
+        throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
+}
+
+void record(const Candidate& candidate, Summary& summary) {
+    summary.selection_passes += candidate.passes;
+    summary.candidate_tets = static_cast<std::int64_t>(candidate.mesh.tets.size());
+    summary.notes.clear();
+    if (candidate.bridges > 0)
+        summary.notes.push_back(std::to_string(candidate.bridges) +
+                                " thin necks were kept by bridges of tetrahedra");
+}
+
+// The lattice's tetrahedra around faces whose centre or edge midpoints lie
+// farther from phi = 0 than `tolerance` mm.
+std::vector<lattice::RedTet> far_from_surface(const TetMesh& mesh,
+                                              const std::vector<lattice::RedTet>& red,
+                                              const levelset::LevelSet& phi,
+                                              double tolerance) {
+    const auto off = [&](const Vec3& p) { return std::abs(phi.value(p)); };
+    std::vector<char> marked(mesh.points.size(), 0);
+    bool any = false;
+    for (const Triangle& f : boundary_faces(mesh.tets)) {
+        const Vec3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
+        if (off((a + b + c) / 3) > tolerance || off(0.5 * (a + b)) > tolerance ||
+            off(0.5 * (b + c)) > tolerance || off(0.5 * (c + a)) > tolerance) {
+            for (const std::int32_t n : f) marked[n] = 1;
+            any = true;
+        }
+    }
+    std::vector<lattice::RedTet> far;
+    for (std::size_t t = 0; any && t < mesh.tets.size(); ++t)
+        if (std::any_of(mesh.tets[t].begin(), mesh.tets[t].end(),
+                        [&](std::int32_t n) { return marked[n] != 0; }))
+            far.push_back(red[t]);
+    return far;
+}
+
+// Everything up to a mesh that fits the surface: the lattice, and candidates that
+// are driven onto it and refined where they stay away.
+Result prepare(const levelset::LevelSet& phi, const Options& options, ProgressSink& progress) {
+    options.validate();
+    Stopwatch watch;
+    Result result;
+    Summary& summary = result.summary;
+    const LevelPlan plan = plan_levels(options);
+    lattice::RedGreenLattice lattice = build_lattice(phi, options, plan, progress);
+    summary.edge_length = plan.surface_edge;
+    summary.levels = plan.max_level;
+    summary.seconds_lattice = watch.lap();
+    for (;; ++summary.distance_rounds) {
+        Candidate candidate =
+            select_candidate(lattice, {.components = options.components}, progress);
+        record(candidate, summary);
+        result.mesh = std::move(candidate.mesh);
+        summary.seconds_select += watch.lap();
+        fit_surface(result.mesh, phi, progress);
+        summary.seconds_compress += watch.lap();
+        if (!(options.distance_factor > 0) || summary.distance_rounds >= options.distance_rounds)
+            return result;
+        const std::vector<lattice::RedTet> far = far_from_surface(
+            result.mesh, candidate.red, phi, options.distance_factor * options.edge_length);
+        if (far.empty() || lattice.refine(far) == 0) return result;
+        lattice.close();
+        summary.seconds_lattice += watch.lap();
+    }
+}
+
+}  // namespace
+
+void Options::validate() const {
+    require(edge_length > 0 && std::isfinite(edge_length), "edge length", edge_length,
+            "it must be a positive number of mm");
+    require(interior_edge_length == 0 || interior_edge_length >= edge_length,
+            "interior edge length", interior_edge_length,
+            "it must be 0 or at least the edge length");
+    require(smallest_edge_length >= 0 && smallest_edge_length <= edge_length,
+            "smallest edge length", smallest_edge_length,
+            "it must be 0 or at most the edge length");
+    require(curvature_factor >= 0, "curvature factor", curvature_factor, "it must not be negative");
+    require(thickness_factor >= 0, "thickness factor", thickness_factor, "it must not be negative");
+    require(volume >= 0, "volume", volume, "it must not be negative");
+    require(components >= 0, "number of components", components, "it must not be negative");
+}
+
+Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
+                      ProgressSink& progress) {
+    Result result = prepare(phi, options, progress);
+    Stopwatch watch;
+    result.summary.volume_offset = polish(result.mesh, phi, options.volume, progress);
+    result.summary.seconds_compress += watch.lap();
+    return result;
+}
+
+std::int64_t count_tets(const levelset::LevelSet& phi, const Options& options,
+                        ProgressSink& progress) {
+    return static_cast<std::int64_t>(prepare(phi, options, progress).mesh.tets.size());
+}
+
+double find_edge_length(double tets, double guess, double tolerance,
+                        const std::function<double(double)>& count) {
+    require(tets >= 1, "number of tetrahedra", tets, "it must be at least 1");
+    // Counts fall like a power of the edge length, between the square (all tetrahedra
+    // at the surface) and the cube; the exponent is learnt from the last two trials.
+    double edge = guess, best = guess, best_miss = std::numeric_limits<double>::infinity();
+    double exponent = 2.5, last_edge = 0, last_count = 0;
+    for (int trial = 0; trial < kSearchTrials; ++trial) {
+        const double found = count(edge);
+        const double miss = std::abs(found / tets - 1);
+        if (miss < best_miss) {
+            best_miss = miss;
+            best = edge;
+        }
+        if (best_miss <= tolerance) break;
+        if (last_edge > 0 && edge != last_edge && found != last_count)
+            exponent = std::clamp(
+                -std::log(found / last_count) / std::log(edge / last_edge), 1.5, 4.0);
+        last_edge = edge;
+        last_count = found;
+        edge *= std::pow(found / tets, 1 / exponent);
+    }
+    return best;
+}
+
+double edge_length_for(const levelset::LevelSet& phi, double tets, Options options,
+                       double tolerance, ProgressSink& progress) {
+    const double interior = options.interior_edge_length / options.edge_length;
+    const double smallest = options.smallest_edge_length / options.edge_length;
+    return find_edge_length(tets, options.edge_length, tolerance, [&](double edge) {
+        options.edge_length = edge;
+        options.interior_edge_length = interior * edge;
+        options.smallest_edge_length = smallest * edge;
+        return static_cast<double>(count_tets(phi, options, progress));
+    });
+}
+
+double forecast_tets(double volume, double area, const Options& options) {
+    // A shell of kShellEdges edges around the surface at the surface edge, the
+    // rest at the interior one; a BCC lattice has 12 tetrahedra a cell.
+    const LevelPlan plan = plan_levels(options);
+    const double shell = std::min(volume, kShellEdges * plan.surface_edge * area);
+    const auto cells = [](double v, double edge) { return v / (edge * edge * edge); };
+    return 12 * (cells(shell, plan.surface_edge) + cells(volume - shell, plan.coarsest_edge));
+}
+
+}  // namespace myotet::meshing

@@ -20,8 +20,13 @@ struct Options {
     double interior_edge_length = 0;   ///< how coarse the inside may grow, mm; 0: 4x edge_length
     double smallest_edge_length = 0;   ///< how fine thin or curved parts may get, mm; 0: edge_length / 8
     double curvature_factor = 0;       ///< refine where edge > factor / (|k1| + |k2|); 0: off
-    double thickness_factor = 0.5;     ///< refine where edge > factor * local thickness; 0: off
+    double thickness_factor = 0.8;     ///< refine where edge > factor * local thickness; 0: off
+    int components = 1;                ///< connected pieces that phi < 0 has; 0: not known, keep all
     double volume = 0;                 ///< volume that the mesh shall have, mm^3; 0: as phi says
+    /// Refine where the finished surface is farther from phi = 0 than this part of
+    /// the edge length, then select and compress again; 0: off.
+    double distance_factor = 0.08;
+    int distance_rounds = 3;           ///< times that this may be done
     SizingFunction sizing;             ///< empty: none
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
@@ -32,6 +37,7 @@ struct Summary {
     double edge_length = 0;            ///< lattice edge used at the surface, mm
     int levels = 0;                    ///< red levels below the coarsest
     int selection_passes = 0;
+    int distance_rounds = 0;           ///< times the lattice was refined for the surface distance
     std::int64_t candidate_tets = 0;
     double volume_offset = 0;          ///< isovalue that the surface was fitted to, mm
     double seconds_lattice = 0, seconds_select = 0, seconds_compress = 0;
@@ -54,8 +60,18 @@ struct Result {
 /// About how many tetrahedra a call would make, from volume and surface alone.
 [[nodiscard]] double forecast_tets(double volume, double area, const Options& options);
 
-/// The edge length at which a mesh has `tets` tetrahedra within `tolerance`
-/// (relative), found by building lattices and candidates.
+/// How many tetrahedra mesh_level_set makes: everything but the last, longest
+/// part of the compression.
+[[nodiscard]] std::int64_t count_tets(const levelset::LevelSet& phi, const Options& options,
+                                      ProgressSink& progress);
+
+/// The edge length, mm, at which count(edge length) is `tets` within `tolerance`
+/// (relative), or the nearest found in eight trials from `guess`.
+[[nodiscard]] double find_edge_length(double tets, double guess, double tolerance,
+                                      const std::function<double(double)>& count);
+
+/// The same for one level set; starts from options.edge_length, and keeps the
+/// options' ratios of interior and smallest to surface edge.
 [[nodiscard]] double edge_length_for(const levelset::LevelSet& phi, double tets, Options options,
                                      double tolerance, ProgressSink& progress);
 

@@ -184,6 +184,26 @@ TEST(RedGreenLattice, RefiningOneCornerCascadesUntilItConforms) {
     expect_conforming(as_mesh(lattice));
 }
 
+// A shrunken case: scattered deep refinement in rounds, so that a coarse
+// neighbour has to notice edges bisected two levels below its own.
+TEST(RedGreenLattice, ScatteredRefinementInRoundsConforms) {
+    RedGreenLattice lattice(unit_box(1.5), 0.5, 5, 1e9, sphere);
+    std::uint32_t state = 12345;
+    for (int round = 0; round < 12; ++round) {
+        std::vector<RedTet> some;
+        const std::vector<RedTet> reds = lattice.mesh().red;
+        for (int i = 0; i < 6; ++i) {
+            state = state * 1664525u + 1013904223u;
+            // The later half of the list holds the finer tetrahedra.
+            some.push_back(reds[reds.size() / 2 + (state >> 8) % (reds.size() / 2)]);
+        }
+        lattice.refine(some);
+        lattice.close();
+        ASSERT_EQ(lattice.close(), 0u);
+    }
+    expect_conforming(as_mesh(lattice));
+}
+
 TEST(RedGreenLattice, SameBytesOnOneThreadOrMany) {
     const auto build = [](int threads) {
         const ThreadLimit limit(threads);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Progress.h"
+#include "Core/TetMesh.h"
+#include "LevelSet/LevelSet.h"
+
+namespace myotet::meshing {
+
+// Optimisation-based compression [Teran05, sec. 8], made smooth. Each node in
+// turn minimises
+//
+//     E = sum over its tetrahedra of q^m + mu * F
+//
+// by Newton's method with a line search. q = S^3 / (432 (6 V)^2), S the sum of
+// the six squared edges, is 1 for a regular tetrahedron and infinite for a flat
+// one, so that no tetrahedron can invert. F is the integral of
+// d^2 (1 + d^2 / 0.07^2), d = (phi - c) / h, over the boundary faces around the
+// node: fitting faces and not only nodes makes the surface straddle phi = c,
+// which keeps the volume; the fourth power holds back the farthest places. mu
+// grows from sweep to sweep, as the paper moves boundary nodes gradually; m
+// grows too, so that the worst elements come to decide.
+//
+// The mesh must be positive and stays so. Same bytes on any number of threads:
+// nodes are coloured, and the colours swept in order.
+
+/// The first part: drives the candidate's boundary onto phi = 0.
+void fit_surface(TetMesh& mesh, const levelset::LevelSet& phi, ProgressSink& progress);
+
+/// The second part: improves the elements, worst last, and reaches `volume`
+/// (mm^3; 0: none asked) by fitting phi = c instead of 0. Returns c, mm.
+double polish(TetMesh& mesh, const levelset::LevelSet& phi, double wanted_volume,
+              ProgressSink& progress);
+
+}  // namespace myotet::meshing
