@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace myotet::app {
+
+/// Accepts numbers above zero; CLI11's own check lets NaN and infinity pass.
+inline const CLI::Validator kPositive(
+    [](std::string& text) -> std::string {
+        double number = 0;
+        if (CLI::detail::lexical_cast(text, number) && number > 0 && std::isfinite(number))
+            return {};
+        return "'" + text + "' is not a number above 0";
+    },
+    "");
+
+/// Accepts zero as well.
+inline const CLI::Validator kNotNegative(
+    [](std::string& text) -> std::string {
+        double number = 0;
+        if (CLI::detail::lexical_cast(text, number) && number >= 0 && std::isfinite(number))
+            return {};
+        return "'" + text + "' is not a number of at least 0";
+    },
+    "");
+
+}  // namespace myotet::app

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ExitCodes.h"
+
+namespace CLI {
+class App;
+}
+
+namespace myotet::app {
+
+/// Each adds its subcommand to the program; when the subcommand is chosen it
+/// runs and leaves its exit code in `code`.
+void add_mesh(CLI::App& program, ExitCode& code);
+void add_quality(CLI::App& program, ExitCode& code);
+
+}  // namespace myotet::app

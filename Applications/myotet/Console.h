@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Progress.h"
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace myotet::app {
+
+/// How much is said on stderr.
+enum class Verbosity { quiet, normal, verbose };
+
+/// One line on stderr each; results go to stdout and never through here.
+void set_up_log(Verbosity verbosity);
+void log_error(std::string_view sentence);
+void log_warning(std::string_view sentence);
+void log_info(std::string_view sentence);
+void log_detail(std::string_view sentence);
+
+/// Progress on stderr: a bar with stage, percent and time left on a terminal,
+/// else a line at each stage's start and each tenth of it; nothing when quiet.
+/// Interrupted when a signal asked for it.
+class ConsoleProgress final : public ProgressSink {
+public:
+    explicit ConsoleProgress(Verbosity verbosity);
+    ~ConsoleProgress() override;
+    void report(std::string_view stage, double fraction) override;
+    void warn(std::string_view sentence) override;
+    void note(std::string_view sentence) override;
+    [[nodiscard]] bool interrupted() const override;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void draw_bar(double fraction);
+    void say_line(double fraction);
+    void clear_bar();
+
+    const bool silent_;
+    const bool terminal_;
+    std::mutex mutex_;
+    std::string stage_;
+    Clock::time_point stage_began_;
+    Clock::time_point last_said_;
+    double furthest_ = 0;
+    int tenths_said_ = 0;
+    bool bar_shown_ = false;
+};
+
+}  // namespace myotet::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Progress.h"
+#include "MeshReport.h"
+#include "Sizing.h"
+
+#include <filesystem>
+#include <string>
+
+namespace myotet::app {
+
+/// What `myotet mesh` was asked for.
+struct JobOptions {
+    std::filesystem::path input;          ///< label volume or closed surface
+    std::filesystem::path output;         ///< folder
+    std::string labels;                   ///< values or names, by commas; empty: all but 0
+    std::filesystem::path names;          ///< name table; empty: look beside the input
+    SizeOptions sizes;
+    double smooth = -1;                   ///< mm; negative: from the voxel size
+    std::string compress = "optimization";
+    std::string input_unit;               ///< of a surface file: mm, cm, m; empty: mm
+    int threads = 0;                      ///< 0: as many as the process may use
+};
+
+/// What a run would make and take.
+[[nodiscard]] Forecast forecast_job(const JobOptions& options, ProgressSink& progress);
+
+/// From a labelled scan, or a surface, to one mesh a tissue: reads, makes level
+/// sets, meshes, checks every promise, writes. A tissue whose mesh breaks a
+/// promise is not written; the report says so and is written all the same.
+/// Throws InputError, IoError (bad input: nothing is written), ResourceError,
+/// Interrupted (what was written is removed).
+[[nodiscard]] RunReport run_job(const JobOptions& options, ProgressSink& progress);
+
+}  // namespace myotet::app

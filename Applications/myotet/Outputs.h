@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace myotet::app {
+
+/// "<value>_<name>" with every character that a file system or a shell might
+/// stumble over replaced by '_'; letters beyond ASCII stay.
+[[nodiscard]] std::string file_stem(std::int32_t value, std::string_view name);
+
+/// A folder that results go to. It is created by the first file; unless
+/// keep() is called, what was written is removed again.
+class OutputFolder {
+public:
+    /// Throws IoError when files could not be written there; creates nothing.
+    explicit OutputFolder(std::filesystem::path folder);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+    /// Calls write(path of `name` in the folder). Throws ResourceError when
+    /// writing fails, since the folder could be written to before.
+    void write(const std::string& name,
+               const std::function<void(const std::filesystem::path&)>& write);
+    void keep() { kept_ = true; }
+
+private:
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> made_;  ///< folders and files, in order
+    bool kept_ = false;
+};
+
+}  // namespace myotet::app

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ReportText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+namespace myotet::app {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys in the order in which they are read
+
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json tissue_json(const TissueReport& t) {
+    return {{"label", t.label},
+            {"name", t.name},
+            {"voxels", t.voxels > 0 ? Json(t.voxels) : Json(nullptr)},
+            {"components_in", t.components_in},
+            {"components_out", t.components_out},
+            {"volume_labels_mm3", t.volume_labels},
+            {"volume_mesh_mm3", t.volume_mesh},
+            {"vertices", t.vertices},
+            {"tets", t.tets},
+            {"min_dihedral_deg", number_or_null(t.shapes.min_dihedral_deg)},
+            {"max_dihedral_deg", number_or_null(t.shapes.max_dihedral_deg)},
+            {"max_aspect_ratio", number_or_null(t.shapes.max_aspect_ratio)},
+            {"mean_aspect_ratio", number_or_null(t.shapes.mean_aspect_ratio)},
+            {"edge_length_asked_mm", t.edge_length_asked},
+            {"edge_length_surface_median_mm", t.surface_edges.median},
+            {"boundary_manifold", t.topology.boundary_manifold},
+            {"tets_with_four_boundary_nodes", t.topology.tets_with_four_boundary_nodes},
+            {"interior_edges_joining_boundary_nodes",
+             t.topology.interior_edges_joining_boundary_nodes},
+            {"inverted_tets", t.shapes.inverted_tets},
+            {"surface_distance_mean_mm", number_or_null(t.distance.mean)},
+            {"surface_distance_max_mm", number_or_null(t.distance.max)},
+            {"seconds", t.seconds},
+            {"notes", t.notes},
+            {"broken_promises", t.broken_promises},
+            {"files", t.files}};
+}
+
+Json options_json(const RunReport& report) {
+    Json options = Json::object();
+    for (const auto& [key, value] : report.options_text)
+        options[key] = value.empty() ? Json(nullptr) : Json(value);
+    for (const auto& [key, value] : report.options_number) options[key] = number_or_null(value);
+    options["labels"] = report.labels;
+    return options;
+}
+
+std::string row(const char* label, const std::string& name, const TissueReport& t) {
+    char text[160];
+    const double error =
+        t.volume_labels > 0 ? 100 * (t.volume_mesh - t.volume_labels) / t.volume_labels : 0;
+    std::snprintf(text, sizeof text, "%6s  %-32.32s %9zu %7.1f %7.1f %7.2f %8.2f %7d/%d\n", label,
+                  name.c_str(), t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
+                  t.shapes.max_aspect_ratio, error, t.components_out, t.components_in);
+    return text;
+}
+
+}  // namespace
+
+std::string to_json(const RunReport& report) {
+    Json run = {{"program", "myotet"},
+                {"version", MYOTET_VERSION},
+                {"input", report.input},
+                {"input_sha256", report.input_sha256},
+                {"output", report.output},
+                {"frame", "LPS"},
+                {"units", "mm"},
+                {"options", options_json(report)},
+                {"threads", report.threads},
+                {"peak_memory_bytes", report.peak_memory},
+                {"processor_seconds", report.processor_seconds},
+                {"seconds", report.seconds},
+                {"warnings", report.warnings}};
+    run["tissues"] = Json::array();
+    for (const TissueReport& tissue : report.tissues) run["tissues"].push_back(tissue_json(tissue));
+    return run.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_table(const RunReport& report) {
+    std::string table =
+        "                                                        dihedral angle  aspect   volume   pieces\n"
+        " label  name                                  tets     min     max   ratio  error %   out/in\n";
+    TissueReport all;
+    all.shapes.min_dihedral_deg = 180;
+    for (const TissueReport& t : report.tissues) {
+        table += row(std::to_string(t.label).c_str(), t.name, t);
+        for (const std::string& sentence : t.broken_promises)
+            table += "        broken promise: " + sentence + "\n";
+        all.tets += t.tets;
+        all.volume_labels += t.volume_labels;
+        all.volume_mesh += t.volume_mesh;
+        all.components_in += t.components_in;
+        all.components_out += t.components_out;
+        if (t.tets == 0) continue;
+        all.shapes.min_dihedral_deg =
+            std::min(all.shapes.min_dihedral_deg, t.shapes.min_dihedral_deg);
+        all.shapes.max_dihedral_deg =
+            std::max(all.shapes.max_dihedral_deg, t.shapes.max_dihedral_deg);
+        all.shapes.max_aspect_ratio =
+            std::max(all.shapes.max_aspect_ratio, t.shapes.max_aspect_ratio);
+    }
+    if (report.tissues.size() > 1) table += row("all", "", all);
+    return table;
+}
+
+std::string quality_json(const std::string& mesh, const std::vector<TissueReport>& tissues) {
+    Json all = {{"mesh", mesh}, {"units", "mm"}, {"labels", Json::array()}};
+    for (const TissueReport& t : tissues)
+        all["labels"].push_back(
+            {{"label", t.label},
+             {"components", t.components_out},
+             {"volume_mesh_mm3", t.volume_mesh},
+             {"vertices", t.vertices},
+             {"tets", t.tets},
+             {"min_dihedral_deg", number_or_null(t.shapes.min_dihedral_deg)},
+             {"max_dihedral_deg", number_or_null(t.shapes.max_dihedral_deg)},
+             {"max_aspect_ratio", number_or_null(t.shapes.max_aspect_ratio)},
+             {"mean_aspect_ratio", number_or_null(t.shapes.mean_aspect_ratio)},
+             {"edge_length_surface_median_mm", t.surface_edges.median},
+             {"boundary_manifold", t.topology.boundary_manifold},
+             {"tets_with_four_boundary_nodes", t.topology.tets_with_four_boundary_nodes},
+             {"interior_edges_joining_boundary_nodes",
+              t.topology.interior_edges_joining_boundary_nodes},
+             {"inverted_tets", t.shapes.inverted_tets},
+             {"euler_characteristic", t.topology.euler_characteristic},
+             {"broken_promises", t.broken_promises}});
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string quality_table(const std::vector<TissueReport>& tissues) {
+    std::string table =
+        "                    dihedral angle   aspect ratio        edge      volume\n"
+        " label      tets     min     max     max    mean      median         mm^3  pieces\n";
+    for (const TissueReport& t : tissues) {
+        char text[160];
+        std::snprintf(text, sizeof text, "%6d %9zu %7.2f %7.2f %7.3f %7.3f %11.4g %12.6g %7d\n",
+                      t.label, t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
+                      t.shapes.max_aspect_ratio, t.shapes.mean_aspect_ratio,
+                      t.surface_edges.median, t.volume_mesh, t.components_out);
+        table += text;
+        for (const std::string& sentence : t.broken_promises)
+            table += "        broken promise: " + sentence + "\n";
+    }
+    return table;
+}
+
+}  // namespace myotet::app

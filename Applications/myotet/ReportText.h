@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "MeshReport.h"
+
+namespace myotet::app {
+
+/// report.json's content.
+[[nodiscard]] std::string to_json(const RunReport& report);
+
+/// The tissues as a table for people.
+[[nodiscard]] std::string to_table(const RunReport& report);
+
+/// The same for a mesh that is at hand.
+[[nodiscard]] std::string quality_json(const std::string& mesh,
+                                       const std::vector<TissueReport>& tissues);
+[[nodiscard]] std::string quality_table(const std::vector<TissueReport>& tissues);
+
+}  // namespace myotet::app

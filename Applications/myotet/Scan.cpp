@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Scan.h"
+
+#include "Core/Sha256.h"
+#include "ExitCodes.h"
+#include "MeshFiles/MeshFiles.h"
+#include "MeshJob.h"
+#include "Segmentation/Census.h"
+#include "Segmentation/ReadLabels.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace myotet::app {
+namespace {
+
+double millimetres_per(const std::string& unit) {
+    return unit == "m" ? 1000 : unit == "cm" ? 10 : 1;
+}
+
+/// Area of a label's surface from its voxel faces. A plane of unit normal n and
+/// area A shows voxel faces of area A (|n1| + |n2| + |n3|), whose mean over all
+/// directions is 3/2 A (Cauchy's projection formula).
+std::map<std::int32_t, double> estimate_areas(const LabelVolume& volume) {
+    const Vec3 s = volume.spacing();
+    const Vec3 face_area(s[1] * s[2], s[2] * s[0], s[0] * s[1]);
+    std::map<std::int32_t, std::array<std::int64_t, 3>> faces;
+    const auto count = [&](std::int32_t here, std::int32_t there, int axis) {
+        if (here == there) return;
+        ++faces[here][axis];
+        ++faces[there][axis];
+    };
+    const Index3& n = volume.size;
+    for (int k = 0; k < n[2]; ++k)
+        for (int j = 0; j < n[1]; ++j)
+            for (int i = 0; i < n[0]; ++i) {
+                const std::int32_t here = volume.values[volume.offset(i, j, k)];
+                const auto value_at = [&](int a, int b, int c) {
+                    return a < n[0] && b < n[1] && c < n[2] ? volume.values[volume.offset(a, b, c)]
+                                                            : 0;
+                };
+                count(here, value_at(i + 1, j, k), 0);
+                count(here, value_at(i, j + 1, k), 1);
+                count(here, value_at(i, j, k + 1), 2);
+                count(i == 0 ? 0 : here, here, 0);
+                count(j == 0 ? 0 : here, here, 1);
+                count(k == 0 ? 0 : here, here, 2);
+            }
+    std::map<std::int32_t, double> areas;
+    for (const auto& [value, f] : faces)
+        areas[value] = 2.0 / 3.0 *
+                       (static_cast<double>(f[0]) * face_area[0] +
+                        static_cast<double>(f[1]) * face_area[1] +
+                        static_cast<double>(f[2]) * face_area[2]);
+    return areas;
+}
+
+double surface_area(const TriMesh& surface) {
+    double area = 0;
+    for (const Triangle& t : surface.triangles) {
+        const Vec3& a = surface.points[t[0]];
+        area += 0.5 * (surface.points[t[1]] - a).cross(surface.points[t[2]] - a).norm();
+    }
+    return area;
+}
+
+/// Connected pieces of the surface that bound a solid from outside; those
+/// turned the other way are cavities.
+int count_outward_shells(const TriMesh& surface) {
+    std::vector<std::int32_t> parent(surface.points.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::int32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const Triangle& t : surface.triangles) {
+        parent[root(t[1])] = root(t[0]);
+        parent[root(t[2])] = root(t[0]);
+    }
+    std::map<std::int32_t, double> volumes;
+    for (const Triangle& t : surface.triangles)
+        volumes[root(t[0])] += signed_volume(Vec3::Zero(), surface.points[t[0]],
+                                             surface.points[t[1]], surface.points[t[2]]);
+    const double whole = volume(surface);  // its sign says which way is outward
+    return static_cast<int>(
+        std::ranges::count_if(volumes, [&](const auto& v) { return v.second * whole > 0; }));
+}
+
+Scan read_label_scan(const JobOptions& options) {
+    if (!options.input_unit.empty())
+        throw UsageError("--input-unit: " + options.input.string() +
+                         " is a label file, which says its unit itself; leave the option out");
+    segmentation::LabelFile file = segmentation::read_labels(options.input, options.names);
+    const auto counts = segmentation::count_labels(file.volume);
+    const auto chosen = segmentation::choose_labels(file.volume, counts, options.labels);
+    const auto areas = estimate_areas(file.volume);
+
+    Scan scan;
+    scan.spacing = file.volume.spacing();
+    scan.names_from = file.names_from;
+    scan.warnings = std::move(file.warnings);
+    for (const segmentation::LabelCount& c : counts)
+        if (std::ranges::binary_search(chosen, c.value))
+            scan.tissues.push_back(
+                {c.value, file.volume.name_of(c.value), c.voxels,
+                 static_cast<double>(c.voxels) * file.volume.voxel_volume(), areas.at(c.value)});
+    scan.volume = std::move(file.volume);
+    return scan;
+}
+
+Scan read_surface_scan(const JobOptions& options) {
+    if (!options.labels.empty() || !options.names.empty())
+        throw UsageError("--labels and --names: " + options.input.string() +
+                         " is a surface, which is one tissue; leave the options out");
+    Scan scan;
+    scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
+    scan.shells = count_outward_shells(*scan.surface);
+    scan.tissues = {{1, options.input.stem().string(), 0, std::abs(volume(*scan.surface)),
+                     surface_area(*scan.surface)}};
+    return scan;
+}
+
+}  // namespace
+
+Scan read_scan(const JobOptions& options) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(options.input, ignored))
+        throw IoError(options.input.string() + ": there is no such file; check its name and folder");
+    const bool labels = segmentation::is_label_file(options.input);
+    if (!labels && !meshfiles::is_surface_file(options.input))
+        throw InputError(options.input.string() +
+                         ": its extension is not known; labels come as .nii .nii.gz .nrrd "
+                         ".seg.nrrd .mha .mhd, closed surfaces as .obj .off .stl .ply .vtp");
+    Scan scan = labels ? read_label_scan(options) : read_surface_scan(options);
+    scan.sha256 = sha256_of_file(options.input);
+    return scan;
+}
+
+}  // namespace myotet::app

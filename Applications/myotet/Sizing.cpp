@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Sizing.h"
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "Meshing/Refine.h"
+#include "Meshing/Select.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myotet::app {
+namespace {
+
+constexpr double kVoxelsPerEdge = 2;          // shorter edges would mesh the voxels' own steps
+constexpr double kMostTetsOfLabels = 1e6;     // by default; more is to be asked for
+constexpr double kTetsOfSurface = 1e5;        // by default
+constexpr double kSamplesPerEdge = 4;         // level set of a surface: samples along an edge
+
+// Measured on the arm and the knee; see the README of this folder.
+constexpr double kBytesPerVoxel = 12;
+constexpr double kBytesPerSample = 700;       // per level set sample on a tissue's surface
+constexpr double kBytesPerTet = 600;
+constexpr double kSecondsPerVoxel = 4e-8;
+constexpr double kSecondsPerSample = 1.2e-5;
+constexpr double kSecondsPerTet = 7e-5;
+constexpr double kBytesOfProgram = 1.5e8;
+constexpr double kMostTets = 5e8;             // 32-bit indices and what hangs on them
+
+meshing::Options sizes_at(double edge_length, const SizeOptions& asked) {
+    return {.edge_length = edge_length,
+            .interior_edge_length = asked.interior_edge_length > 0
+                                        ? std::max(asked.interior_edge_length, edge_length)
+                                        : 0,
+            .curvature_factor = asked.curvature,
+            .sizing = {}};
+}
+
+double forecast_tets(const meshing::Options& sizes, const Scan& scan) {
+    double tets = 0;
+    for (const Tissue& tissue : scan.tissues)
+        tets += meshing::forecast_tets(tissue.volume, tissue.area, sizes);
+    return tets;
+}
+
+/// The shortest edge length whose forecast is at most `tets`: bisection, as
+/// the forecast falls with the edge length.
+double shortest_edge_for(double tets, const SizeOptions& asked, const Scan& scan) {
+    double extent = 0;
+    for (const Tissue& tissue : scan.tissues) extent += std::cbrt(tissue.volume);
+    double low = 1e-6 * extent, high = 10 * extent;
+    constexpr int kHalvings = 40;  // of the logarithm: far below any rounding that matters
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = std::sqrt(low * high);
+        (forecast_tets(sizes_at(middle, asked), scan) > tets ? low : high) = middle;
+    }
+    return high;
+}
+
+/// Three digits are enough for a length that is said to people.
+double rounded_up(double length) {
+    const double unit = std::pow(10.0, std::floor(std::log10(length)) - 2);
+    return std::ceil(length / unit) * unit;
+}
+
+double tets_at(const std::vector<levelset::Region>& regions, const meshing::Options& sizes,
+               ProgressSink& progress) {
+    return parallel_sum(0, regions.size(), 1, [&](std::size_t r, std::size_t) {
+        SilentProgress silent;
+        progress.check();
+        const meshing::Options options = options_for(regions[r], sizes);
+        try {
+            auto lattice = meshing::build_lattice(regions[r].phi, options,
+                                                  meshing::plan_levels(options), silent);
+            const auto candidate = meshing::select_candidate(
+                lattice, {.components = options.components}, silent);
+            return static_cast<double>(candidate.mesh.tets.size());
+        } catch (const MeshError&) {
+            return 0.0;  // too thin at this length; the run itself will say so
+        }
+    });
+}
+
+}  // namespace
+
+meshing::Options choose_sizes(const SizeOptions& asked, const Scan& scan) {
+    if (asked.edge_length > 0) return sizes_at(asked.edge_length, asked);
+    if (asked.tets > 0)
+        return sizes_at(shortest_edge_for(static_cast<double>(asked.tets), asked, scan), asked);
+    if (scan.surface) return sizes_at(rounded_up(shortest_edge_for(kTetsOfSurface, asked, scan)), asked);
+    const double voxel = std::cbrt(scan.spacing.prod());
+    return sizes_at(rounded_up(std::max(kVoxelsPerEdge * voxel,
+                                        shortest_edge_for(kMostTetsOfLabels, asked, scan))),
+                    asked);
+}
+
+double level_set_spacing(const meshing::Options& sizes, const Scan& scan) {
+    return scan.surface ? sizes.edge_length / kSamplesPerEdge : 0;
+}
+
+Forecast forecast(const meshing::Options& sizes, const Scan& scan) {
+    const double voxels = scan.volume ? static_cast<double>(scan.volume->values.size()) : 0;
+    const double spacing =
+        scan.surface ? level_set_spacing(sizes, scan) : std::cbrt(scan.spacing.prod());
+    double samples = 0;
+    for (const Tissue& tissue : scan.tissues) samples += tissue.area / (spacing * spacing);
+    Forecast result;
+    result.edge_length = sizes.edge_length;
+    result.tets = forecast_tets(sizes, scan);
+    result.bytes = kBytesOfProgram + kBytesPerVoxel * voxels + kBytesPerSample * samples +
+                   kBytesPerTet * result.tets;
+    result.seconds = kSecondsPerVoxel * voxels + kSecondsPerSample * samples +
+                     kSecondsPerTet * result.tets;
+    return result;
+}
+
+void require_room_for(const Forecast& forecast, double available_bytes) {
+    const auto whole = [](double x) { return std::to_string(static_cast<long long>(x)); };
+    const std::string at = "edge length " + std::to_string(forecast.edge_length) +
+                           " mm: would make about " + whole(forecast.tets) + " tetrahedra";
+    if (!(forecast.tets <= kMostTets))
+        throw ResourceError(at + ", more than the " + whole(kMostTets) +
+                            " that one run can number; use a longer --edge-length");
+    if (!(forecast.bytes <= available_bytes))
+        throw ResourceError(at + " and need about " + whole(forecast.bytes / 1e6) + " MB, but " +
+                            whole(available_bytes / 1e6) +
+                            " MB are available; use a longer --edge-length or fewer --labels");
+}
+
+meshing::Options options_for(const levelset::Region& region, meshing::Options sizes) {
+    const bool from_labels = region.voxels > 0;
+    sizes.volume = from_labels ? region.volume_labels : 0;
+    sizes.components = from_labels ? 1 : 0;
+    return sizes;
+}
+
+double edge_length_for_total(const std::vector<levelset::Region>& regions,
+                             const meshing::Options& first_guess, double tets,
+                             ProgressSink& progress) {
+    // ln(count) against ln(edge length) is nearly straight, of a slope between
+    // -2 (surface) and -3 (inside): a secant search, kept within its bracket.
+    constexpr int kMostTrials = 12;
+    constexpr double kGoodEnough = 0.5 * kTetsTolerance;  // compression may still change a little
+    const double unset = std::numeric_limits<double>::quiet_NaN();
+    meshing::Options sizes = first_guess;
+    double x = std::log(first_guess.edge_length);
+    double best_x = x, best_error = std::numeric_limits<double>::infinity();
+    double low = unset, low_y = 0, high = unset, high_y = 0;  // too many, too few tetrahedra
+    for (int trial = 0; trial < kMostTrials; ++trial) {
+        progress.report("edge length", static_cast<double>(trial) / kMostTrials);
+        sizes.edge_length = std::exp(x);
+        sizes.interior_edge_length =
+            first_guess.interior_edge_length > 0
+                ? std::max(first_guess.interior_edge_length, sizes.edge_length)
+                : 0;
+        const double count = std::max(1.0, tets_at(regions, sizes, progress));
+        const double y = std::log(count / tets);
+        if (std::abs(y) < best_error) best_error = std::abs(y), best_x = x;
+        if (std::abs(y) < kGoodEnough) break;
+        (y > 0 ? low : high) = x;
+        (y > 0 ? low_y : high_y) = y;
+        constexpr double kSlope = -2.5;
+        x = std::isnan(low) || std::isnan(high)
+                ? x - y / kSlope
+                : low + (high - low) * std::clamp(low_y / (low_y - high_y), 0.1, 0.9);
+    }
+    if (best_error > std::log1p(kTetsTolerance))
+        progress.warn("no edge length was found that makes " +
+                      std::to_string(static_cast<long long>(tets)) +
+                      " tetrahedra within 10 %; the nearest is used");
+    return std::exp(best_x);
+}
+
+}  // namespace myotet::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Core/Progress.h"
+#include "LevelSet/FromLabels.h"
+#include "MeshReport.h"
+#include "Meshing/MeshLevelSet.h"
+#include "Scan.h"
+
+#include <vector>
+
+namespace myotet::app {
+
+/// A tissue's mesh in the patient's frame, and what there is to say about it.
+struct TissueMesh {
+    TetMesh mesh;
+    TissueReport report;
+};
+
+/// Meshes every region, several at a time, and puts each tissue's components
+/// together; one tissue each of `tissues`, in their order, whatever the number
+/// of threads. A region that cannot be meshed is reported, not thrown.
+/// Regions lose their level sets on the way. Throws ResourceError, Interrupted.
+[[nodiscard]] std::vector<TissueMesh> mesh_tissues(levelset::LabelLevelSets& sets,
+                                                   const std::vector<Tissue>& tissues,
+                                                   const meshing::Options& sizes,
+                                                   ProgressSink& progress);
+
+}  // namespace myotet::app

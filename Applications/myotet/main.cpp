@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CommandLine.h"
+#include "Commands.h"
+#include "Console.h"
+#include "Interrupt.h"
+
+#include <iostream>
+
+using namespace myotet::app;
+
+int main(int argc, char** argv) {
+    set_up_log(Verbosity::normal);
+    watch_signals();
+    ExitCode code = ExitCode::done;
+    CLI::App program("Myotet makes simulation-ready tissue meshes from labelled scans.", "myotet");
+    program.set_version_flag("--version", "myotet " MYOTET_VERSION);
+    program.require_subcommand(1);
+    program.footer("Lengths are millimetres. Exit codes: 0 done, 2 usage, 3 bad input, 4 a mesh\n"
+                   "breaks a promise, 5 not converged, 6 out of a resource, 130 interrupted.");
+    try {
+        add_mesh(program, code);
+        add_quality(program, code);
+        program.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+        return program.exit(asked);
+    } catch (const CLI::ParseError& error) {
+        log_error(std::string(error.what()) + "; see myotet --help");
+        code = ExitCode::usage;
+    } catch (...) {
+        const Ending ending = ending_for(std::current_exception());
+        log_error(ending.sentence);
+        code = ending.code;
+    }
+    return static_cast<int>(code);
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CommandLine.h"
+#include "Commands.h"
+#include "Console.h"
+#include "MeshJob.h"
+#include "ReportText.h"
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace myotet::app {
+namespace {
+
+struct Arguments {
+    JobOptions job;
+    bool json = false, quiet = false, verbose = false, dry_run = false;
+};
+
+void add_options(CLI::App& command, Arguments& a) {
+    command.add_option("INPUT", a.job.input,
+                       "labels (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd) or a closed surface "
+                       "(.obj .off .stl .ply .vtp)")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("-o,--output", a.job.output, "folder for the results")
+        ->required()
+        ->type_name("FOLDER");
+    command.add_option("--labels", a.job.labels,
+                       "only these, by value or name: 3,7,biceps (default: all but 0)")
+        ->type_name("LIST");
+    command.add_option("--names", a.job.names,
+                       "table of label names (default: looked for beside the input)")
+        ->type_name("TABLE");
+    auto* edge = command.add_option("--edge-length", a.job.sizes.edge_length,
+                                    "target edge length on the surface, mm (default: from the "
+                                    "voxels, under a million tetrahedra)");
+    auto* tets = command.add_option("--tets", a.job.sizes.tets,
+                                    "or: about this many tetrahedra in all, within 10 %");
+    edge->check(kPositive)->excludes(tets)->type_name("MM");
+    tets->check(kPositive)->type_name("N");
+    command
+        .add_option("--interior-edge-length", a.job.sizes.interior_edge_length,
+                    "how coarse the inside may grow, mm (default: 4x the edge length)")
+        ->check(kPositive)
+        ->type_name("MM");
+    command
+        .add_option("--curvature", a.job.sizes.curvature,
+                    "refine where the longest edge > FACTOR / (|k1| + |k2|) (default: off)")
+        ->check(kPositive)
+        ->type_name("FACTOR");
+    command
+        .add_option("--smooth", a.job.smooth,
+                    "how far smoothing may move a sharp voxel corner, mm (default: from the "
+                    "voxels; 0: none)")
+        ->check(kNotNegative)
+        ->type_name("MM");
+    command.add_option("--compress", a.job.compress, "how the mesh is fitted to the surface")
+        ->check(CLI::IsMember({"optimization"}))
+        ->capture_default_str();
+    command.add_option("--input-unit", a.job.input_unit,
+                       "what a surface file's numbers mean: mm, cm or m (default: mm)")
+        ->check(CLI::IsMember({"mm", "cm", "m"}));
+    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+    command.add_flag("--json", a.json, "print report.json instead of the table");
+    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
+    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    command.add_flag("--dry-run", a.dry_run,
+                     "only forecast tetrahedra, memory and time; write nothing");
+}
+
+ExitCode print_forecast(const Arguments& a, ProgressSink& progress) {
+    const Forecast f = forecast_job(a.job, progress);
+    const char* form = a.json ? "{\"edge_length_mm\": %.6g, \"tets\": %.0f, \"memory_bytes\": %.0f, "
+                                "\"processor_seconds\": %.1f}\n"
+                              : "edge length      %.3g mm\ntetrahedra       about %.0f\n"
+                                "memory           about %.0f bytes\nprocessor time   about %.1f s\n";
+    std::printf(form, f.edge_length, f.tets, f.bytes, f.seconds);
+    return ExitCode::done;
+}
+
+ExitCode tell_broken_promises(const RunReport& report) {
+    ExitCode code = ExitCode::done;
+    for (const TissueReport& tissue : report.tissues) {
+        for (const std::string& sentence : tissue.broken_promises)
+            log_error("label " + std::to_string(tissue.label) + " (" + tissue.name +
+                      "): " + sentence);
+        if (!tissue.broken_promises.empty()) code = ExitCode::broken_promise;
+    }
+    return code;
+}
+
+ExitCode run(const Arguments& a) {
+    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
+                                : a.verbose ? Verbosity::verbose
+                                            : Verbosity::normal;
+    set_up_log(verbosity);
+    RunReport report;
+    {
+        ConsoleProgress progress(verbosity);
+        if (a.dry_run) return print_forecast(a, progress);
+        report = run_job(a.job, progress);
+    }
+    for (const TissueReport& tissue : report.tissues)
+        for (const std::string& note : tissue.notes)
+            log_detail("label " + std::to_string(tissue.label) + " (" + tissue.name + "): " + note);
+    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    log_info("results are in " + a.job.output.string());
+    return tell_broken_promises(report);
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& program, ExitCode& code) {
+    CLI::App* command =
+        program.add_subcommand("mesh", "tetrahedral meshes of a scan's tissues, or of a surface");
+    const auto arguments = std::make_shared<Arguments>();
+    add_options(*command, *arguments);
+    command->callback([arguments, &code] { code = run(*arguments); });
+}
+
+}  // namespace myotet::app
