@@ -29,7 +29,8 @@ constexpr double kLongestStep = 0.5;
 // centre (exact for cubics).
 constexpr double kCornerWeight = 3.0 / 60, kEdgeWeight = 8.0 / 60, kCentreWeight = 27.0 / 60;
 
-// Deviations beyond this fraction of a node's scale count with their fourth power.
+// Deviations beyond this fraction of a node's scale, or of the surface's median
+// one where that is smaller, count with their fourth power.
 constexpr double kFarOff = 0.07;
 // Tetrahedra whose q exceeds this (aspect ratio about 3) are worked on to the end.
 constexpr double kBad = 3.0;
@@ -44,7 +45,15 @@ struct Stage {
 class Compressor {
 public:
     Compressor(TetMesh& mesh, const LevelSet& phi)
-        : x_(mesh.points), phi_(phi), stars_(mesh), dirty_(mesh.points.size(), 1) {}
+        : x_(mesh.points), phi_(phi), stars_(mesh), dirty_(mesh.points.size(), 1) {
+        std::vector<double> scales;
+        for (std::size_t v = 0; v < x_.size(); ++v)
+            if (stars_.on_boundary(static_cast<std::int32_t>(v))) scales.push_back(stars_.scale[v]);
+        MYOTET_CHECK(!scales.empty(), "a mesh has a boundary");
+        const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+        std::nth_element(scales.begin(), middle, scales.end());
+        surface_scale_ = *middle;
+    }
 
     void run(const Stage& stage, double offset, ProgressSink& progress) {
         offset_ = offset;
@@ -76,11 +85,12 @@ private:
     // quadrature of (phi - c)^2 over its faces; Gauss-Newton where asked.
     double fit(std::int32_t v, const Vec3& at, double mu, Expansion* expansion) const {
         const double h = stars_.scale[v];
+        const double far = kFarOff * std::min(1.0, surface_scale_ / h);
         double sum = 0;
         const auto add = [&](const Vec3& p, double weight, double share) {
             const Sample s = phi_.sample(p);
             const double off = (s.value - offset_) / h;
-            const double r2 = off * off / (kFarOff * kFarOff);
+            const double r2 = off * off / (far * far);
             sum += mu * weight * off * off * (1 + r2);
             if (!expansion) return;
             expansion->gradient += 2 * mu * weight * share * off * (1 + 2 * r2) * s.gradient;
@@ -153,6 +163,7 @@ private:
     Stars stars_;
     std::vector<char> dirty_;
     double offset_ = 0;
+    double surface_scale_ = 0;  // median scale of boundary nodes, mm
 };
 
 double boundary_area(const TetMesh& mesh) {

@@ -15,8 +15,8 @@ namespace myotet::meshing {
 // by Newton's method with a line search. q = S^3 / (432 (6 V)^2), S the sum of
 // the six squared edges, is 1 for a regular tetrahedron and infinite for a flat
 // one, so that no tetrahedron can invert. F is the integral of
-// d^2 (1 + d^2 / 0.07^2), d = (phi - c) / h, over the boundary faces around the
-// node: fitting faces and not only nodes makes the surface straddle phi = c,
+// d^2 (1 + d^2 / f^2), d = (phi - c) / h, f = 0.07 or less, over the boundary
+// faces around the node: fitting faces and not only nodes makes the surface straddle phi = c,
 // which keeps the volume; the fourth power holds back the farthest places. mu
 // grows from sweep to sweep, as the paper moves boundary nodes gradually; m
 // grows too, so that the worst elements come to decide.

@@ -27,7 +27,7 @@ struct Options {
     /// the edge length, then select and compress again; 0: off.
     double distance_factor = 0.08;
     int distance_rounds = 3;           ///< times that this may be done
-    SizingFunction sizing;             ///< empty: none
+    SizingFunction sizing = {};            ///< empty: none
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };

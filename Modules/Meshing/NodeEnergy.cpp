@@ -58,7 +58,9 @@ double StarEnergy::value(const Vec3& x, int m) const {
     if (!(lowest > 0)) return std::numeric_limits<double>::infinity();
     double sum = 0;
     for (std::size_t i = 0; i < count_; ++i) sum += power(q_[i], m);
-    return sum;
+    return sum < std::numeric_limits<double>::infinity()
+               ? sum
+               : std::numeric_limits<double>::infinity();  // not a number either
 }
 
 double StarEnergy::worst(const Vec3& x) const {

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Meshing/MeshLevelSet.h"
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "Quality/Quality.h"
+#include "Support/AnalyticLevelSet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace myotet;
+using namespace myotet::meshing;
+using support::cube;
+using support::sample_level_set;
+
+namespace {
+
+// The surface straddles the level set, so a fitted volume is far better than an
+// inscribed one; 0.5 % is a few times what a sphere of ten edges shows.
+constexpr double kVolumeAsFitted = 5e-3;
+// A volume asked for is reached by a root search that ends below this.
+constexpr double kVolumeAsAsked = 2e-3;
+
+double sphere(const Vec3& p) { return p.norm() - 10; }
+
+double torus(const Vec3& p) {
+    return std::hypot(std::hypot(p.x(), p.y()) - 8, p.z()) - 3;
+}
+
+// Two balls joined by a thin rod.
+double dumbbell(const Vec3& p) {
+    const double balls = std::min((p - Vec3(8, 0, 0)).norm(), (p + Vec3(8, 0, 0)).norm()) - 4;
+    const double rod = std::max(std::hypot(p.y(), p.z()) - 0.7, std::abs(p.x()) - 8);
+    return std::min(balls, rod);
+}
+
+double slab(const Vec3& p) {
+    const Vec3 d = p.cwiseAbs() - Vec3(9, 9, 0.5);
+    return d.cwiseMax(0).norm() + std::min(d.maxCoeff(), 0.0);
+}
+
+void expect_promises(const TetMesh& mesh, int components = 1) {
+    const quality::Topology t = quality::measure_topology(mesh.tets, mesh.points.size());
+    EXPECT_TRUE(t.boundary_manifold);
+    EXPECT_EQ(t.tets_with_four_boundary_nodes, 0);
+    EXPECT_EQ(t.interior_edges_joining_boundary_nodes, 0);
+    EXPECT_EQ(t.components, components);
+    EXPECT_EQ(quality::measure_shapes(mesh).inverted_tets, 0);
+}
+
+SilentProgress quiet;
+
+}  // namespace
+
+TEST(MeshLevelSet, SphereKeepsVolumeShapeAndPromises) {
+    const auto phi = sample_level_set(cube(14), 0.5, sphere);
+    const Result r = mesh_level_set(phi, {.edge_length = 2}, quiet);
+    expect_promises(r.mesh);
+    const double exact = 4.0 / 3 * std::numbers::pi * 1000;
+    EXPECT_NEAR(volume(r.mesh) / exact, 1, kVolumeAsFitted);
+    const quality::ShapeSummary s = quality::measure_shapes(r.mesh);
+    // What the smooth optimisation reaches on a sphere, with a little room.
+    EXPECT_GT(s.min_dihedral_deg, 28);
+    EXPECT_LT(s.max_dihedral_deg, 125);
+    EXPECT_LT(s.max_aspect_ratio, 3.4);
+    const auto d = quality::surface_distance(r.mesh, sphere);
+    EXPECT_LT(d.mean, 0.02 * 2);
+    EXPECT_LT(d.max, 0.15 * 2);
+    // The edge asked for is the edge on the surface.
+    EXPECT_NEAR(quality::boundary_edge_lengths(r.mesh).median, 2, 0.2);
+}
+
+TEST(MeshLevelSet, TorusKeepsItsHole) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    const Result r = mesh_level_set(phi, {.edge_length = 1.5}, quiet);
+    expect_promises(r.mesh);
+    EXPECT_EQ(quality::measure_topology(r.mesh.tets, r.mesh.points.size()).euler_characteristic,
+              0);
+}
+
+TEST(MeshLevelSet, VolumeAskedForIsReached) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    const double exact = 2 * std::numbers::pi * std::numbers::pi * 8 * 9;
+    for (const double factor : {0.97, 1.0, 1.03}) {
+        const Result r =
+            mesh_level_set(phi, {.edge_length = 2, .volume = factor * exact}, quiet);
+        EXPECT_NEAR(volume(r.mesh) / (factor * exact), 1, kVolumeAsAsked);
+        expect_promises(r.mesh);
+    }
+}
+
+TEST(MeshLevelSet, AThinNeckStaysOnePiece) {
+    const auto phi = sample_level_set(cube(16), 0.25, dumbbell);
+    expect_promises(mesh_level_set(phi, {.edge_length = 2}, quiet).mesh);
+    // Also when the lattice cannot see the rod at all.
+    expect_promises(mesh_level_set(phi,
+                                   {.edge_length = 3,
+                                    .smallest_edge_length = 3,
+                                    .thickness_factor = 0,
+                                    .distance_factor = 0},
+                                   quiet)
+                        .mesh);
+}
+
+TEST(MeshLevelSet, AThinSheetKeepsItsVolumeAndItsTwoSides) {
+    const auto phi = sample_level_set(cube(12), 0.25, slab);
+    const double exact = 18 * 18 * 1;
+    const Result r = mesh_level_set(phi, {.edge_length = 3, .volume = exact}, quiet);
+    expect_promises(r.mesh);
+    EXPECT_NEAR(volume(r.mesh) / exact, 1, 0.02);
+    EXPECT_EQ(quality::measure_topology(r.mesh.tets, r.mesh.points.size()).euler_characteristic,
+              2);
+}
+
+TEST(MeshLevelSet, TwoBallsStayTwoWhenAskedAndSmallOnesAreMeshedToo) {
+    const auto two = [](const Vec3& p) {
+        return std::min((p - Vec3(6, 0, 0)).norm() - 4, (p + Vec3(6, 0, 0)).norm() - 1);
+    };
+    const auto phi = sample_level_set(cube(12), 0.25, two);
+    const Result r = mesh_level_set(phi, {.edge_length = 2, .components = 2}, quiet);
+    expect_promises(r.mesh, 2);
+}
+
+TEST(MeshLevelSet, SameBytesOnOneThreadOrMany) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    const auto make = [&](int threads) {
+        const ThreadLimit limit(threads);
+        return mesh_level_set(phi, {.edge_length = 1.5, .curvature_factor = 1}, quiet).mesh;
+    };
+    const TetMesh one = make(1), many = make(0);
+    EXPECT_EQ(one.tets, many.tets);
+    ASSERT_EQ(one.points.size(), many.points.size());
+    for (std::size_t i = 0; i < one.points.size(); ++i) ASSERT_EQ(one.points[i], many.points[i]);
+}
+
+TEST(MeshLevelSet, CurvatureAndSizingRefine) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    const Options plain{.edge_length = 2.5, .distance_factor = 0};
+    Options curved = plain, sized = plain;
+    curved.curvature_factor = 0.7;
+    sized.sizing = [](const Vec3& p) { return p.x() > 0 ? 1.0 : 100.0; };
+    const auto tets = [&](const Options& o) { return mesh_level_set(phi, o, quiet).mesh; };
+    const TetMesh base = tets(plain);
+    EXPECT_GT(tets(curved).tets.size(), 2 * base.tets.size());
+    const TetMesh right = tets(sized);
+    expect_promises(right);
+    std::size_t at_right = 0;
+    for (const Tet& t : right.tets) at_right += right.points[t[0]].x() > 0;
+    EXPECT_GT(at_right, right.tets.size() * 3 / 4);
+}
+
+TEST(FindEdgeLength, ReachesTheNumberAskedFor) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    constexpr double asked = 9000, tolerance = 0.1;
+    const double edge = edge_length_for(phi, asked, {.edge_length = 4}, tolerance, quiet);
+    const Result r = mesh_level_set(phi, {.edge_length = edge}, quiet);
+    EXPECT_NEAR(static_cast<double>(r.mesh.tets.size()) / asked, 1, tolerance);
+}
+
+TEST(ForecastTets, IsOfTheRightOrder) {
+    const auto phi = sample_level_set(cube(14), 0.5, sphere);
+    const Options options{.edge_length = 1.5};
+    const double found = static_cast<double>(mesh_level_set(phi, options, quiet).mesh.tets.size());
+    const double forecast = forecast_tets(4.0 / 3 * std::numbers::pi * 1000,
+                                          4 * std::numbers::pi * 100, options);
+    // A forecast guides a user's choice: a factor of two is what it promises.
+    EXPECT_GT(forecast, found / 2);
+    EXPECT_LT(forecast, found * 2);
+}
+
+TEST(Options, SayWhichFieldIsWrong) {
+    const auto phi = sample_level_set(cube(14), 2, sphere);
+    for (const double bad : {0.0, -1.0, std::nan("")})
+        EXPECT_THROW((void)mesh_level_set(phi, {.edge_length = bad}, quiet), InputError);
+    EXPECT_THROW((void)mesh_level_set(phi, {.edge_length = 2, .interior_edge_length = 1}, quiet),
+                 InputError);
+    EXPECT_THROW((void)mesh_level_set(phi, {.edge_length = 2, .smallest_edge_length = 3}, quiet),
+                 InputError);
+}
