@@ -33,10 +33,14 @@ void parallel_for(std::size_t begin, std::size_t end, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
     if (begin >= end) return;
     if (end - begin <= grain) return body(begin, end);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          body(range.begin(), range.end());
-                      });
+    // Isolated: a thread that waits for the end of an inner loop helps with that
+    // loop only, and does not begin another piece of an outer one meanwhile.
+    tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              body(range.begin(), range.end());
+                          });
+    });
 }
 
 double parallel_sum(std::size_t begin, std::size_t end, std::size_t grain,

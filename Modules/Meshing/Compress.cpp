@@ -191,6 +191,7 @@ constexpr int kVolumeRounds = 3;
 void fit_surface(TetMesh& mesh, const LevelSet& phi, ProgressSink& progress) {
     Compressor compressor(mesh, phi);
     for (const Stage& stage : kDrive) {
+        progress.check();
         compressor.wake_boundary();
         compressor.run(stage, 0, progress);
     }
@@ -211,6 +212,7 @@ double polish(TetMesh& mesh, const LevelSet& phi, double wanted_volume, Progress
     compressor.wake_all();
     compressor.run(kShape, offset, progress);
     for (int i = 0; i < kWorstRounds; ++i) {
+        progress.report("compression", (i + 1) / (kWorstRounds + 1.0));
         correct_volume();
         if (wanted_volume > 0) compressor.wake_boundary();
         compressor.wake_bad(mesh, kBad);

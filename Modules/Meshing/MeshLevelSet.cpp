@@ -79,11 +79,14 @@ Result prepare(const levelset::LevelSet& phi, const Options& options, ProgressSi
     Result result;
     Summary& summary = result.summary;
     const LevelPlan plan = plan_levels(options);
+    progress.report("lattice", 0);
     lattice::RedGreenLattice lattice = build_lattice(phi, options, plan, progress);
     summary.edge_length = plan.surface_edge;
     summary.levels = plan.max_level;
     summary.seconds_lattice = watch.lap();
+    progress.report("lattice", 1);
     for (;; ++summary.distance_rounds) {
+        progress.report("selection", summary.distance_rounds / (options.distance_rounds + 1.0));
         Candidate candidate =
             select_candidate(lattice, {.components = options.components}, progress);
         record(candidate, summary);
@@ -121,9 +124,11 @@ void Options::validate() const {
 Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
                       ProgressSink& progress) {
     Result result = prepare(phi, options, progress);
+    progress.report("selection", 1);
     Stopwatch watch;
     result.summary.volume_offset = polish(result.mesh, phi, options.volume, progress);
     result.summary.seconds_compress += watch.lap();
+    progress.report("compression", 1);
     return result;
 }
 
