@@ -4,6 +4,7 @@
 #include "Segmentation/ItkImage.h"
 #include "Segmentation/TextHeader.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <sstream>
@@ -92,15 +93,16 @@ ByteStream open_data(const TextHeader& header, const Storage& storage, const Itk
         if (text.empty()) text = header.get(joined);
         return text.empty() ? std::int64_t{0} : whole_number(text, spaced, file);
     };
-    std::uint64_t offset =
+    const std::uint64_t offset =
         skip_lines(storage.file, storage.offset, number("line skip", "lineskip"));
     const std::int64_t skip = number("byte skip", "byteskip");
-    if (skip < 0) {  // the data are what the file ends with
-        const std::uint64_t bytes = data_bytes(itk), size = fs::file_size(storage.file);
-        return ByteStream(storage.file, storage.coding, bytes <= size ? size - bytes : 0);
+    std::uint64_t to_skip = static_cast<std::uint64_t>(std::max<std::int64_t>(skip, 0));
+    if (skip < 0) {  // the data are what the stream ends with
+        const std::uint64_t all = ByteStream(storage.file, storage.coding, offset).drain();
+        to_skip = all - std::min(all, data_bytes(itk));
     }
     ByteStream stream(storage.file, storage.coding, offset);
-    stream.skip(static_cast<std::uint64_t>(skip), "bytes to skip");
+    stream.skip(to_skip, "bytes to skip");
     return stream;
 }
 
