@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Console.h"
 
-#include "Interrupt.h"
-
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -11,13 +9,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "Interrupt.h"
+
 namespace myotet::app {
 namespace {
 
 constexpr int kBarWidth = 30;
 constexpr double kRedrawSeconds = 0.1;
-constexpr double kLineSeconds = 2;      // no more than one plain line in this time
-constexpr double kGuessSeconds = 1;     // before, the time left is not guessed
+constexpr double kLineSeconds = 2;   // no more than one plain line in this time
+constexpr double kGuessSeconds = 1;  // before, the time left is not guessed
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
@@ -26,7 +26,8 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
 std::string readable(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
     if (whole < 60) return std::to_string(whole) + " s";
-    if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+    if (whole < 3600)
+        return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
     return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Progress.h"
-
 #include <chrono>
 #include <mutex>
 #include <string>
 #include <string_view>
+
+#include "Core/Progress.h"
 
 namespace myotet::app {
 

@@ -24,8 +24,9 @@ Ending ending_for(const std::exception_ptr& thrown) {
     } catch (const Interrupted&) {
         return {ExitCode::interrupted, "interrupted; nothing was left half-written"};
     } catch (const std::exception& error) {
-        return {ExitCode::bug, std::string(error.what()) + "; this is a mistake in Myotet, please "
-                                                           "report it with the command and input"};
+        return {ExitCode::bug, std::string(error.what()) +
+                                   "; this is a mistake in Myotet, please "
+                                   "report it with the command and input"};
     } catch (...) {
         return {ExitCode::bug, "an unknown failure; this is a mistake in Myotet, please report it"};
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-#include "Quality/Quality.h"
-
 #include <map>
 #include <string>
 #include <vector>
+
+#include "Core/TetMesh.h"
+#include "Quality/Quality.h"
 
 namespace myotet::app {
 
@@ -16,16 +16,16 @@ struct TissueReport {
     std::string name;
     std::int64_t voxels = 0;
     int components_in = 0, components_out = 0;
-    double volume_labels = 0, volume_mesh = 0;     ///< mm^3
+    double volume_labels = 0, volume_mesh = 0;  ///< mm^3
     std::size_t vertices = 0, tets = 0;
-    double edge_length_asked = 0;                  ///< mm
+    double edge_length_asked = 0;  ///< mm
     quality::EdgeLengths surface_edges;
     quality::ShapeSummary shapes;
     quality::Topology topology;
     quality::SurfaceDistance distance;
-    std::map<std::string, double> seconds;         ///< by stage
-    std::vector<std::string> notes;                ///< what the user should know
-    std::vector<std::string> broken_promises;      ///< empty: the mesh is good and was written
+    std::map<std::string, double> seconds;     ///< by stage
+    std::vector<std::string> notes;            ///< what the user should know
+    std::vector<std::string> broken_promises;  ///< empty: the mesh is good and was written
     std::vector<std::string> files;
 };
 
@@ -36,11 +36,11 @@ struct RunReport {
     std::vector<std::pair<std::string, double>> options_number;
     std::vector<std::int32_t> labels;
     int threads = 0;
-    double peak_memory = 0;                        ///< bytes
+    double peak_memory = 0;  ///< bytes
     double processor_seconds = 0;
-    std::map<std::string, double> seconds;         ///< by stage
+    std::map<std::string, double> seconds;  ///< by stage
     std::vector<std::string> warnings;
-    std::vector<TissueReport> tissues;             ///< by label value
+    std::vector<TissueReport> tissues;  ///< by label value
 };
 
 /// Fills in all that the mesh itself tells: counts, shapes, topology, edges.

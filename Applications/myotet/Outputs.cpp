@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Outputs.h"
 
-#include "Core/Errors.h"
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <ranges>
+
+#include "Core/Errors.h"
 
 namespace myotet::app {
 namespace fs = std::filesystem;
@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kLongestName = 100;  // bytes; file systems take 255
 
 bool harmless(unsigned char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-           c == '-' || c == '.' || c >= 0x80;
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+           c == '.' || c >= 0x80;
 }
 
 /// Cuts a UTF-8 text between characters.
@@ -37,7 +37,8 @@ std::string_view shortened(std::string_view text) {
 
 std::string file_stem(std::int32_t value, std::string_view name) {
     std::string safe(shortened(name));
-    std::ranges::replace_if(safe, [](unsigned char c) { return !harmless(c); }, '_');
+    std::ranges::replace_if(
+        safe, [](unsigned char c) { return !harmless(c); }, '_');
     return std::to_string(value) + "_" + safe;
 }
 
@@ -47,7 +48,8 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
     std::error_code ignored;
     while (!fs::exists(standing, ignored) && standing.has_relative_path())
         standing = standing.parent_path();
-    if (!fs::is_directory(standing, ignored)) refuse(folder_, standing.string() + " is not a folder");
+    if (!fs::is_directory(standing, ignored))
+        refuse(folder_, standing.string() + " is not a folder");
     if (::access(standing.c_str(), W_OK | X_OK) != 0)
         refuse(folder_, standing.string() + " may not be written to");
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ReportText.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace myotet::app {
 namespace {
@@ -14,32 +13,32 @@ using Json = nlohmann::ordered_json;  // keys in the order in which they are rea
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json tissue_json(const TissueReport& t) {
-    return {{"label", t.label},
-            {"name", t.name},
-            {"voxels", t.voxels > 0 ? Json(t.voxels) : Json(nullptr)},
-            {"components_in", t.components_in},
-            {"components_out", t.components_out},
-            {"volume_labels_mm3", t.volume_labels},
-            {"volume_mesh_mm3", t.volume_mesh},
-            {"vertices", t.vertices},
-            {"tets", t.tets},
-            {"min_dihedral_deg", number_or_null(t.shapes.min_dihedral_deg)},
-            {"max_dihedral_deg", number_or_null(t.shapes.max_dihedral_deg)},
-            {"max_aspect_ratio", number_or_null(t.shapes.max_aspect_ratio)},
-            {"mean_aspect_ratio", number_or_null(t.shapes.mean_aspect_ratio)},
-            {"edge_length_asked_mm", t.edge_length_asked},
-            {"edge_length_surface_median_mm", t.surface_edges.median},
-            {"boundary_manifold", t.topology.boundary_manifold},
-            {"tets_with_four_boundary_nodes", t.topology.tets_with_four_boundary_nodes},
-            {"interior_edges_joining_boundary_nodes",
-             t.topology.interior_edges_joining_boundary_nodes},
-            {"inverted_tets", t.shapes.inverted_tets},
-            {"surface_distance_mean_mm", number_or_null(t.distance.mean)},
-            {"surface_distance_max_mm", number_or_null(t.distance.max)},
-            {"seconds", t.seconds},
-            {"notes", t.notes},
-            {"broken_promises", t.broken_promises},
-            {"files", t.files}};
+    return {
+        {"label", t.label},
+        {"name", t.name},
+        {"voxels", t.voxels > 0 ? Json(t.voxels) : Json(nullptr)},
+        {"components_in", t.components_in},
+        {"components_out", t.components_out},
+        {"volume_labels_mm3", t.volume_labels},
+        {"volume_mesh_mm3", t.volume_mesh},
+        {"vertices", t.vertices},
+        {"tets", t.tets},
+        {"min_dihedral_deg", number_or_null(t.shapes.min_dihedral_deg)},
+        {"max_dihedral_deg", number_or_null(t.shapes.max_dihedral_deg)},
+        {"max_aspect_ratio", number_or_null(t.shapes.max_aspect_ratio)},
+        {"mean_aspect_ratio", number_or_null(t.shapes.mean_aspect_ratio)},
+        {"edge_length_asked_mm", t.edge_length_asked},
+        {"edge_length_surface_median_mm", t.surface_edges.median},
+        {"boundary_manifold", t.topology.boundary_manifold},
+        {"tets_with_four_boundary_nodes", t.topology.tets_with_four_boundary_nodes},
+        {"interior_edges_joining_boundary_nodes", t.topology.interior_edges_joining_boundary_nodes},
+        {"inverted_tets", t.shapes.inverted_tets},
+        {"surface_distance_mean_mm", number_or_null(t.distance.mean)},
+        {"surface_distance_max_mm", number_or_null(t.distance.max)},
+        {"seconds", t.seconds},
+        {"notes", t.notes},
+        {"broken_promises", t.broken_promises},
+        {"files", t.files}};
 }
 
 Json options_json(const RunReport& report) {
@@ -84,8 +83,10 @@ std::string to_json(const RunReport& report) {
 
 std::string to_table(const RunReport& report) {
     std::string table =
-        "                                                        dihedral angle  aspect   volume   pieces\n"
-        " label  name                                  tets     min     max   ratio  error %   out/in\n";
+        "                                                        dihedral angle  aspect   volume   "
+        "pieces\n"
+        " label  name                                  tets     min     max   ratio  error %   "
+        "out/in\n";
     TissueReport all;
     all.shapes.min_dihedral_deg = 180;
     for (const TissueReport& t : report.tissues) {
@@ -141,8 +142,8 @@ std::string quality_table(const std::vector<TissueReport>& tissues) {
         char text[160];
         std::snprintf(text, sizeof text, "%6d %9zu %7.2f %7.2f %7.3f %7.3f %11.4g %12.6g %7d\n",
                       t.label, t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
-                      t.shapes.max_aspect_ratio, t.shapes.mean_aspect_ratio,
-                      t.surface_edges.median, t.volume_mesh, t.components_out);
+                      t.shapes.max_aspect_ratio, t.shapes.mean_aspect_ratio, t.surface_edges.median,
+                      t.volume_mesh, t.components_out);
         table += text;
         for (const std::string& sentence : t.broken_promises)
             table += "        broken promise: " + sentence + "\n";

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Scan.h"
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+
 #include "Core/Sha256.h"
 #include "ExitCodes.h"
 #include "MeshFiles/MeshFiles.h"
 #include "MeshJob.h"
 #include "Segmentation/Census.h"
 #include "Segmentation/ReadLabels.h"
-
-#include <algorithm>
-#include <map>
-#include <numeric>
 
 namespace myotet::app {
 namespace {
@@ -49,10 +49,10 @@ std::map<std::int32_t, double> estimate_areas(const LabelVolume& volume) {
             }
     std::map<std::int32_t, double> areas;
     for (const auto& [value, f] : faces)
-        areas[value] = 2.0 / 3.0 *
-                       (static_cast<double>(f[0]) * face_area[0] +
-                        static_cast<double>(f[1]) * face_area[1] +
-                        static_cast<double>(f[2]) * face_area[2]);
+        areas[value] =
+            2.0 / 3.0 *
+            (static_cast<double>(f[0]) * face_area[0] + static_cast<double>(f[1]) * face_area[1] +
+             static_cast<double>(f[2]) * face_area[2]);
     return areas;
 }
 
@@ -102,9 +102,9 @@ Scan read_label_scan(const JobOptions& options) {
     scan.warnings = std::move(file.warnings);
     for (const segmentation::LabelCount& c : counts)
         if (std::ranges::binary_search(chosen, c.value))
-            scan.tissues.push_back(
-                {c.value, file.volume.name_of(c.value), c.voxels,
-                 static_cast<double>(c.voxels) * file.volume.voxel_volume(), areas.at(c.value)});
+            scan.tissues.push_back({c.value, file.volume.name_of(c.value), c.voxels,
+                                    static_cast<double>(c.voxels) * file.volume.voxel_volume(),
+                                    areas.at(c.value)});
     scan.volume = std::move(file.volume);
     return scan;
 }
@@ -126,7 +126,8 @@ Scan read_surface_scan(const JobOptions& options) {
 Scan read_scan(const JobOptions& options) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(options.input, ignored))
-        throw IoError(options.input.string() + ": there is no such file; check its name and folder");
+        throw IoError(options.input.string() +
+                      ": there is no such file; check its name and folder");
     const bool labels = segmentation::is_label_file(options.input);
     if (!labels && !meshfiles::is_surface_file(options.input))
         throw InputError(options.input.string() +

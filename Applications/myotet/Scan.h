@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-#include "Core/TetMesh.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "Core/LabelVolume.h"
+#include "Core/TetMesh.h"
 
 namespace myotet::app {
 
@@ -26,11 +26,11 @@ struct Tissue {
 struct Scan {
     std::optional<LabelVolume> volume;
     std::optional<TriMesh> surface;
-    std::vector<Tissue> tissues;        ///< those asked for, by label value
-    Vec3 spacing = Vec3::Zero();        ///< of the voxels, mm; zero for a surface
-    int shells = 0;                     ///< outward closed pieces of a surface
-    std::filesystem::path names_from;   ///< where the names come from; empty: none
-    std::string sha256;                 ///< of the input file
+    std::vector<Tissue> tissues;       ///< those asked for, by label value
+    Vec3 spacing = Vec3::Zero();       ///< of the voxels, mm; zero for a surface
+    int shells = 0;                    ///< outward closed pieces of a surface
+    std::filesystem::path names_from;  ///< where the names come from; empty: none
+    std::string sha256;                ///< of the input file
     std::vector<std::string> warnings;
 };
 

@@ -1,39 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Sizing.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Meshing/Refine.h"
 #include "Meshing/Select.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace myotet::app {
 namespace {
 
-constexpr double kVoxelsPerEdge = 2;          // shorter edges would mesh the voxels' own steps
-constexpr double kMostTetsOfLabels = 1e6;     // by default; more is to be asked for
-constexpr double kTetsOfSurface = 1e5;        // by default
-constexpr double kSamplesPerEdge = 4;         // level set of a surface: samples along an edge
+constexpr double kVoxelsPerEdge = 2;       // shorter edges would mesh the voxels' own steps
+constexpr double kMostTetsOfLabels = 1e6;  // by default; more is to be asked for
+constexpr double kTetsOfSurface = 1e5;     // by default
+// ln(tetrahedra) against ln(edge length) is nearly straight, of a slope between
+// -2 (all on the surface) and -3 (all inside).
+constexpr double kSlope = -2.5;
+constexpr double kSamplesPerEdge = 4;  // level set of a surface: samples along an edge
 
 // Measured on the arm and the knee; see the README of this folder.
 constexpr double kBytesPerVoxel = 12;
-constexpr double kBytesPerSample = 700;       // per level set sample on a tissue's surface
+constexpr double kBytesPerSample = 700;  // per level set sample on a tissue's surface
 constexpr double kBytesPerTet = 600;
 constexpr double kSecondsPerVoxel = 4e-8;
 constexpr double kSecondsPerSample = 1.2e-5;
 constexpr double kSecondsPerTet = 7e-5;
 constexpr double kBytesOfProgram = 1.5e8;
-constexpr double kMostTets = 5e8;             // 32-bit indices and what hangs on them
+constexpr double kMostTets = 5e8;  // 32-bit indices and what hangs on them
+
+/// The inside is never finer than the surface.
+meshing::Options with_edge_length(meshing::Options sizes, double edge_length) {
+    sizes.edge_length = edge_length;
+    if (sizes.interior_edge_length > 0)
+        sizes.interior_edge_length = std::max(sizes.interior_edge_length, edge_length);
+    return sizes;
+}
 
 meshing::Options sizes_at(double edge_length, const SizeOptions& asked) {
-    return {.edge_length = edge_length,
-            .interior_edge_length = asked.interior_edge_length > 0
-                                        ? std::max(asked.interior_edge_length, edge_length)
-                                        : 0,
-            .curvature_factor = asked.curvature,
-            .sizing = {}};
+    meshing::Options sizes;
+    sizes.interior_edge_length = asked.interior_edge_length;
+    sizes.curvature_factor = asked.curvature;
+    return with_edge_length(sizes, edge_length);
 }
 
 double forecast_tets(const meshing::Options& sizes, const Scan& scan) {
@@ -72,8 +81,8 @@ double tets_at(const std::vector<levelset::Region>& regions, const meshing::Opti
         try {
             auto lattice = meshing::build_lattice(regions[r].phi, options,
                                                   meshing::plan_levels(options), silent);
-            const auto candidate = meshing::select_candidate(
-                lattice, {.components = options.components}, silent);
+            const auto candidate =
+                meshing::select_candidate(lattice, {.components = options.components}, silent);
             return static_cast<double>(candidate.mesh.tets.size());
         } catch (const MeshError&) {
             return 0.0;  // too thin at this length; the run itself will say so
@@ -84,14 +93,17 @@ double tets_at(const std::vector<levelset::Region>& regions, const meshing::Opti
 }  // namespace
 
 meshing::Options choose_sizes(const SizeOptions& asked, const Scan& scan) {
-    if (asked.edge_length > 0) return sizes_at(asked.edge_length, asked);
-    if (asked.tets > 0)
-        return sizes_at(shortest_edge_for(static_cast<double>(asked.tets), asked, scan), asked);
-    if (scan.surface) return sizes_at(rounded_up(shortest_edge_for(kTetsOfSurface, asked, scan)), asked);
-    const double voxel = std::cbrt(scan.spacing.prod());
-    return sizes_at(rounded_up(std::max(kVoxelsPerEdge * voxel,
-                                        shortest_edge_for(kMostTetsOfLabels, asked, scan))),
-                    asked);
+    double edge_length = asked.edge_length;
+    if (asked.tets > 0) {
+        edge_length = shortest_edge_for(static_cast<double>(asked.tets), asked, scan);
+    } else if (!(edge_length > 0) && scan.surface) {
+        edge_length = rounded_up(shortest_edge_for(kTetsOfSurface, asked, scan));
+    } else if (!(edge_length > 0)) {
+        const double voxel = std::cbrt(scan.spacing.prod());
+        edge_length = rounded_up(
+            std::max(kVoxelsPerEdge * voxel, shortest_edge_for(kMostTetsOfLabels, asked, scan)));
+    }
+    return sizes_at(edge_length, asked);
 }
 
 double level_set_spacing(const meshing::Options& sizes, const Scan& scan) {
@@ -109,8 +121,8 @@ Forecast forecast(const meshing::Options& sizes, const Scan& scan) {
     result.tets = forecast_tets(sizes, scan);
     result.bytes = kBytesOfProgram + kBytesPerVoxel * voxels + kBytesPerSample * samples +
                    kBytesPerTet * result.tets;
-    result.seconds = kSecondsPerVoxel * voxels + kSecondsPerSample * samples +
-                     kSecondsPerTet * result.tets;
+    result.seconds =
+        kSecondsPerVoxel * voxels + kSecondsPerSample * samples + kSecondsPerTet * result.tets;
     return result;
 }
 
@@ -134,32 +146,29 @@ meshing::Options options_for(const levelset::Region& region, meshing::Options si
     return sizes;
 }
 
-double edge_length_for_total(const std::vector<levelset::Region>& regions,
-                             const meshing::Options& first_guess, double tets,
-                             ProgressSink& progress) {
-    // ln(count) against ln(edge length) is nearly straight, of a slope between
-    // -2 (surface) and -3 (inside): a secant search, kept within its bracket.
+meshing::Options rescaled(meshing::Options sizes, double excess) {
+    return with_edge_length(sizes, sizes.edge_length * std::pow(excess, -1 / kSlope));
+}
+
+meshing::Options sizes_for_total(const std::vector<levelset::Region>& regions,
+                                 const meshing::Options& first_guess, double tets,
+                                 ProgressSink& progress) {
+    // A secant search in logarithms, kept within its bracket.
     constexpr int kMostTrials = 12;
     constexpr double kGoodEnough = 0.5 * kTetsTolerance;  // compression may still change a little
     const double unset = std::numeric_limits<double>::quiet_NaN();
-    meshing::Options sizes = first_guess;
     double x = std::log(first_guess.edge_length);
     double best_x = x, best_error = std::numeric_limits<double>::infinity();
     double low = unset, low_y = 0, high = unset, high_y = 0;  // too many, too few tetrahedra
     for (int trial = 0; trial < kMostTrials; ++trial) {
         progress.report("edge length", static_cast<double>(trial) / kMostTrials);
-        sizes.edge_length = std::exp(x);
-        sizes.interior_edge_length =
-            first_guess.interior_edge_length > 0
-                ? std::max(first_guess.interior_edge_length, sizes.edge_length)
-                : 0;
+        const auto sizes = with_edge_length(first_guess, std::exp(x));
         const double count = std::max(1.0, tets_at(regions, sizes, progress));
         const double y = std::log(count / tets);
         if (std::abs(y) < best_error) best_error = std::abs(y), best_x = x;
         if (std::abs(y) < kGoodEnough) break;
         (y > 0 ? low : high) = x;
         (y > 0 ? low_y : high_y) = y;
-        constexpr double kSlope = -2.5;
         x = std::isnan(low) || std::isnan(high)
                 ? x - y / kSlope
                 : low + (high - low) * std::clamp(low_y / (low_y - high_y), 0.1, 0.9);
@@ -168,7 +177,7 @@ double edge_length_for_total(const std::vector<levelset::Region>& regions,
         progress.warn("no edge length was found that makes " +
                       std::to_string(static_cast<long long>(tets)) +
                       " tetrahedra within 10 %; the nearest is used");
-    return std::exp(best_x);
+    return with_edge_length(first_guess, std::exp(best_x));
 }
 
 }  // namespace myotet::app

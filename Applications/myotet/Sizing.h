@@ -10,18 +10,18 @@ namespace myotet::app {
 
 /// How fine the meshes shall be, as asked; at most one of edge_length and tets.
 struct SizeOptions {
-    double edge_length = 0;            ///< mm; 0: not said
-    std::int64_t tets = 0;             ///< in all; 0: not said
-    double interior_edge_length = 0;   ///< mm; 0: 4x the edge length
-    double curvature = 0;              ///< refine where edge > factor / (|k1| + |k2|); 0: off
+    double edge_length = 0;           ///< mm; 0: not said
+    std::int64_t tets = 0;            ///< in all; 0: not said
+    double interior_edge_length = 0;  ///< mm; 0: 4x the edge length
+    double curvature = 0;             ///< refine where edge > factor / (|k1| + |k2|); 0: off
 };
 
 /// What a run would make and take.
 struct Forecast {
     double edge_length = 0;  ///< mm
     double tets = 0;
-    double bytes = 0;        ///< at the peak
-    double seconds = 0;      ///< processor time, s
+    double bytes = 0;    ///< at the peak
+    double seconds = 0;  ///< processor time, s
 };
 
 /// Edge lengths for the job. Without a wish, two voxels, or longer so that the
@@ -41,11 +41,14 @@ void require_room_for(const Forecast& forecast, double available_bytes);
 /// How one region is meshed with these sizes.
 [[nodiscard]] meshing::Options options_for(const levelset::Region& region, meshing::Options sizes);
 
-/// The edge length at which all regions together have `tets` tetrahedra within
-/// kTetsTolerance, from lattices and candidates alone.
+/// Sizes that make 1 / `excess` times the tetrahedra, about.
+[[nodiscard]] meshing::Options rescaled(meshing::Options sizes, double excess);
+
+/// The sizes at which all regions together have `tets` tetrahedra within
+/// kTetsTolerance, from lattices and candidates alone; warns when none was found.
 inline constexpr double kTetsTolerance = 0.1;
-[[nodiscard]] double edge_length_for_total(const std::vector<levelset::Region>& regions,
-                                           const meshing::Options& first_guess, double tets,
-                                           ProgressSink& progress);
+[[nodiscard]] meshing::Options sizes_for_total(const std::vector<levelset::Region>& regions,
+                                               const meshing::Options& first_guess, double tets,
+                                               ProgressSink& progress);
 
 }  // namespace myotet::app

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMesh.h"
 
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Sizing.h"
 #include "Stopwatch.h"
-
-#include <algorithm>
-#include <atomic>
-#include <numeric>
 
 namespace myotet::app {
 namespace {
@@ -17,12 +17,12 @@ using levelset::LabelLevelSets;
 using levelset::Region;
 
 struct RegionMesh {
-    TetMesh mesh;                       ///< patient's frame
+    TetMesh mesh;  ///< patient's frame
     meshing::Summary summary;
     quality::SurfaceDistance distance;
     std::size_t boundary_faces = 0;
     double seconds_check = 0;
-    std::string failure;                ///< why there is no mesh; empty: there is
+    std::string failure;  ///< why there is no mesh; empty: there is
 };
 
 /// Share of a region's work that each of its stages ends at, as measured.
@@ -30,7 +30,8 @@ struct StageEnd {
     std::string_view stage;
     double begin, end;
 };
-constexpr StageEnd kStages[] = {{"lattice", 0, 0.1}, {"selection", 0.1, 0.2}, {"compression", 0.2, 1}};
+constexpr StageEnd kStages[] = {
+    {"lattice", 0, 0.1}, {"selection", 0.1, 0.2}, {"compression", 0.2, 1}};
 
 /// Adds the regions' progress up to the job's.
 class RegionProgress final : public ProgressSink {
@@ -43,8 +44,12 @@ public:
         for (const StageEnd& s : kStages)
             if (s.stage == stage) advance_to(s.begin + fraction * (s.end - s.begin));
     }
-    void warn(std::string_view sentence) override { job_.warn(name_ + ": " + std::string(sentence)); }
-    void note(std::string_view sentence) override { job_.note(name_ + ": " + std::string(sentence)); }
+    void warn(std::string_view sentence) override {
+        job_.warn(name_ + ": " + std::string(sentence));
+    }
+    void note(std::string_view sentence) override {
+        job_.note(name_ + ": " + std::string(sentence));
+    }
     [[nodiscard]] bool interrupted() const override { return job_.interrupted(); }
 
 private:
@@ -84,17 +89,17 @@ RegionMesh mesh_region(const Region& region, const Frame& frame, const meshing::
 }
 
 /// Largest regions first, each taken by whoever is free; results by region.
-std::vector<RegionMesh> mesh_regions(LabelLevelSets& sets, const std::vector<std::string>& names,
-                                     const meshing::Options& sizes, ProgressSink& progress) {
+std::vector<RegionMesh> mesh_regions(LabelLevelSets& sets, const std::vector<Tissue>& tissues,
+                                     const meshing::Options& sizes, LevelSets after,
+                                     ProgressSink& progress) {
     std::vector<Region>& regions = sets.regions;
+    std::vector<double> weights;  // about the region's surface
+    for (const Region& region : regions)
+        weights.push_back(static_cast<double>(region.phi.memory()));
+    const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<std::size_t> order(regions.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto weight = [&](std::size_t r) {
-        return static_cast<double>(regions[r].phi.memory());  // about its surface
-    };
-    std::ranges::stable_sort(order, std::greater{}, weight);
-    double all = 0;
-    for (const std::size_t r : order) all += weight(r);
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t r) { return weights[r]; });
 
     std::vector<RegionMesh> meshes(regions.size());
     std::atomic<std::size_t> next = 0;
@@ -103,9 +108,10 @@ std::vector<RegionMesh> mesh_regions(LabelLevelSets& sets, const std::vector<std
         for (std::size_t i = first; i < last; ++i) {
             progress.check();
             const std::size_t r = order[next++];
-            RegionProgress part(progress, done, weight(r) / all, names[r]);
+            RegionProgress part(progress, done, weights[r] / all,
+                                std::ranges::find(tissues, regions[r].label, &Tissue::label)->name);
             meshes[r] = mesh_region(regions[r], sets.frame, sizes, part);
-            regions[r].phi = {};
+            if (after == LevelSets::released) regions[r].phi = {};
         }
     });
     return meshes;
@@ -116,10 +122,15 @@ std::string component_text(const Region& region) {
            " voxels, " + std::to_string(2 * region.inscribed_radius) + " mm thick)";
 }
 
+/// Thick enough for its pieces to be promised; a surface's region always is.
+bool is_thick(const Region& region, double edge_length) {
+    return region.voxels == 0 || 2 * region.inscribed_radius >= 2 * edge_length;
+}
+
 /// Says what became of one region.
 void record_region(const Region& region, const RegionMesh& made, double edge_length,
                    TissueReport& report) {
-    const bool thick = 2 * region.inscribed_radius >= 2 * edge_length;
+    const bool thick = is_thick(region, edge_length);
     if (!made.failure.empty()) {
         const std::string said = component_text(region) + " has no mesh: " + made.failure;
         (thick ? report.broken_promises : report.notes).push_back(said);
@@ -165,11 +176,9 @@ TissueMesh join(const Tissue& tissue, const std::vector<Region>& regions,
 }  // namespace
 
 std::vector<TissueMesh> mesh_tissues(LabelLevelSets& sets, const std::vector<Tissue>& tissues,
-                                     const meshing::Options& sizes, ProgressSink& progress) {
-    std::vector<std::string> names;
-    for (const Region& region : sets.regions)
-        names.push_back(std::ranges::find(tissues, region.label, &Tissue::label)->name);
-    std::vector<RegionMesh> made = mesh_regions(sets, names, sizes, progress);
+                                     const meshing::Options& sizes, LevelSets after,
+                                     ProgressSink& progress) {
+    std::vector<RegionMesh> made = mesh_regions(sets, tissues, sizes, after, progress);
 
     std::vector<TissueMesh> whole(tissues.size());
     for (std::size_t t = 0; t < tissues.size(); ++t) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "Core/Progress.h"
 #include "LevelSet/FromLabels.h"
 #include "MeshReport.h"
 #include "Meshing/MeshLevelSet.h"
 #include "Scan.h"
-
-#include <vector>
 
 namespace myotet::app {
 
@@ -17,13 +17,16 @@ struct TissueMesh {
     TissueReport report;
 };
 
+/// What becomes of the level sets when they were meshed.
+enum class LevelSets { released, kept };
+
 /// Meshes every region, several at a time, and puts each tissue's components
 /// together; one tissue each of `tissues`, in their order, whatever the number
 /// of threads. A region that cannot be meshed is reported, not thrown.
-/// Regions lose their level sets on the way. Throws ResourceError, Interrupted.
+/// Throws ResourceError, Interrupted.
 [[nodiscard]] std::vector<TissueMesh> mesh_tissues(levelset::LabelLevelSets& sets,
                                                    const std::vector<Tissue>& tissues,
-                                                   const meshing::Options& sizes,
+                                                   const meshing::Options& sizes, LevelSets after,
                                                    ProgressSink& progress);
 
 }  // namespace myotet::app

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+
 #include "CommandLine.h"
 #include "Commands.h"
 #include "Console.h"
 #include "Interrupt.h"
-
-#include <iostream>
 
 using namespace myotet::app;
 
@@ -15,10 +15,12 @@ int main(int argc, char** argv) {
     CLI::App program("Myotet makes simulation-ready tissue meshes from labelled scans.", "myotet");
     program.set_version_flag("--version", "myotet " MYOTET_VERSION);
     program.require_subcommand(1);
-    program.footer("Lengths are millimetres. Exit codes: 0 done, 2 usage, 3 bad input, 4 a mesh\n"
-                   "breaks a promise, 5 not converged, 6 out of a resource, 130 interrupted.");
+    program.footer(
+        "Lengths are millimetres. Exit codes: 0 done, 2 usage, 3 bad input, 4 a mesh\n"
+        "breaks a promise, 5 not converged, 6 out of a resource, 130 interrupted.");
     try {
         add_mesh(program, code);
+        add_phantom(program, code);
         add_quality(program, code);
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

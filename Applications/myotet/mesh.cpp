@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
 #include "CommandLine.h"
 #include "Commands.h"
 #include "Console.h"
 #include "MeshJob.h"
 #include "ReportText.h"
-
-#include <cstdio>
-#include <iostream>
-#include <memory>
 
 namespace myotet::app {
 namespace {
@@ -18,19 +18,22 @@ struct Arguments {
 };
 
 void add_options(CLI::App& command, Arguments& a) {
-    command.add_option("INPUT", a.job.input,
-                       "labels (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd) or a closed surface "
-                       "(.obj .off .stl .ply .vtp)")
+    command
+        .add_option("INPUT", a.job.input,
+                    "labels (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd) or a closed surface "
+                    "(.obj .off .stl .ply .vtp)")
         ->required()
         ->type_name("FILE");
     command.add_option("-o,--output", a.job.output, "folder for the results")
         ->required()
         ->type_name("FOLDER");
-    command.add_option("--labels", a.job.labels,
-                       "only these, by value or name: 3,7,biceps (default: all but 0)")
+    command
+        .add_option("--labels", a.job.labels,
+                    "only these, by value or name: 3,7,biceps (default: all but 0)")
         ->type_name("LIST");
-    command.add_option("--names", a.job.names,
-                       "table of label names (default: looked for beside the input)")
+    command
+        .add_option("--names", a.job.names,
+                    "table of label names (default: looked for beside the input)")
         ->type_name("TABLE");
     auto* edge = command.add_option("--edge-length", a.job.sizes.edge_length,
                                     "target edge length on the surface, mm (default: from the "
@@ -58,8 +61,9 @@ void add_options(CLI::App& command, Arguments& a) {
     command.add_option("--compress", a.job.compress, "how the mesh is fitted to the surface")
         ->check(CLI::IsMember({"optimization"}))
         ->capture_default_str();
-    command.add_option("--input-unit", a.job.input_unit,
-                       "what a surface file's numbers mean: mm, cm or m (default: mm)")
+    command
+        .add_option("--input-unit", a.job.input_unit,
+                    "what a surface file's numbers mean: mm, cm or m (default: mm)")
         ->check(CLI::IsMember({"mm", "cm", "m"}));
     command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
         ->check(CLI::Range(1, 4096))
@@ -73,10 +77,11 @@ void add_options(CLI::App& command, Arguments& a) {
 
 ExitCode print_forecast(const Arguments& a, ProgressSink& progress) {
     const Forecast f = forecast_job(a.job, progress);
-    const char* form = a.json ? "{\"edge_length_mm\": %.6g, \"tets\": %.0f, \"memory_bytes\": %.0f, "
-                                "\"processor_seconds\": %.1f}\n"
-                              : "edge length      %.3g mm\ntetrahedra       about %.0f\n"
-                                "memory           about %.0f bytes\nprocessor time   about %.1f s\n";
+    const char* form = a.json
+                           ? "{\"edge_length_mm\": %.6g, \"tets\": %.0f, \"memory_bytes\": %.0f, "
+                             "\"processor_seconds\": %.1f}\n"
+                           : "edge length      %.3g mm\ntetrahedra       about %.0f\n"
+                             "memory           about %.0f bytes\nprocessor time   about %.1f s\n";
     std::printf(form, f.edge_length, f.tets, f.bytes, f.seconds);
     return ExitCode::done;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
 #include "CommandLine.h"
 #include "Commands.h"
 #include "Console.h"
 #include "MeshFiles/MeshFiles.h"
 #include "ReportText.h"
-
-#include <iostream>
-#include <memory>
 
 namespace myotet::app {
 namespace {
@@ -24,7 +24,8 @@ ExitCode run(const Arguments& a) {
     ExitCode code = ExitCode::done;
     for (const TissueReport& tissue : tissues)
         for (const std::string& sentence : tissue.broken_promises) {
-            log_error(a.mesh.string() + ": label " + std::to_string(tissue.label) + ": " + sentence);
+            log_error(a.mesh.string() + ": label " + std::to_string(tissue.label) + ": " +
+                      sentence);
             code = ExitCode::broken_promise;
         }
     return code;

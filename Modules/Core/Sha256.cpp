@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/Sha256.h"
 
-#include "Core/Errors.h"
-
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <fstream>
 #include <vector>
+
+#include "Core/Errors.h"
 
 namespace myotet {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-
 #include <filesystem>
 #include <map>
 #include <string>
+
+#include "Core/TetMesh.h"
 
 namespace myotet::meshfiles {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vector>
+
 #include "MeshFiles/RawSurface.h"
 #include "MeshFiles/TextReader.h"
-
-#include <vector>
 
 namespace myotet::meshfiles {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Own parser, because VTK 9.1's crashes on a .ply that is cut short.
-#include "MeshFiles/RawSurface.h"
-#include "MeshFiles/TextReader.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
+
+#include "MeshFiles/RawSurface.h"
+#include "MeshFiles/TextReader.h"
 
 namespace myotet::meshfiles {
 namespace {
@@ -33,11 +33,11 @@ struct Header {
 
 Kind read_kind(TextReader& text) {
     static constexpr std::pair<std::string_view, Kind> kKinds[] = {
-        {"char", Kind::int8},     {"int8", Kind::int8},       {"uchar", Kind::uint8},
-        {"uint8", Kind::uint8},   {"short", Kind::int16},     {"int16", Kind::int16},
-        {"ushort", Kind::uint16}, {"uint16", Kind::uint16},   {"int", Kind::int32},
-        {"int32", Kind::int32},   {"uint", Kind::uint32},     {"uint32", Kind::uint32},
-        {"float", Kind::float32}, {"float32", Kind::float32}, {"double", Kind::float64},
+        {"char", Kind::int8},      {"int8", Kind::int8},       {"uchar", Kind::uint8},
+        {"uint8", Kind::uint8},    {"short", Kind::int16},     {"int16", Kind::int16},
+        {"ushort", Kind::uint16},  {"uint16", Kind::uint16},   {"int", Kind::int32},
+        {"int32", Kind::int32},    {"uint", Kind::uint32},     {"uint32", Kind::uint32},
+        {"float", Kind::float32},  {"float32", Kind::float32}, {"double", Kind::float64},
         {"float64", Kind::float64}};
     const std::string_view said = text.word();
     for (const auto& [name, kind] : kKinds)
@@ -108,14 +108,22 @@ public:
     double next(Kind kind, std::string_view name) {
         if (layout_ == Layout::text) return text_.number<double>("a number");
         switch (kind) {
-            case Kind::int8: return take<std::int8_t>(name);
-            case Kind::uint8: return take<std::uint8_t>(name);
-            case Kind::int16: return take<std::int16_t>(name);
-            case Kind::uint16: return take<std::uint16_t>(name);
-            case Kind::int32: return take<std::int32_t>(name);
-            case Kind::uint32: return take<std::uint32_t>(name);
-            case Kind::float32: return take<float>(name);
-            case Kind::float64: break;
+            case Kind::int8:
+                return take<std::int8_t>(name);
+            case Kind::uint8:
+                return take<std::uint8_t>(name);
+            case Kind::int16:
+                return take<std::int16_t>(name);
+            case Kind::uint16:
+                return take<std::uint16_t>(name);
+            case Kind::int32:
+                return take<std::int32_t>(name);
+            case Kind::uint32:
+                return take<std::uint32_t>(name);
+            case Kind::float32:
+                return take<float>(name);
+            case Kind::float64:
+                break;
         }
         return take<double>(name);
     }

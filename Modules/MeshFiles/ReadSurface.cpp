@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Errors.h"
-#include "MeshFiles/MeshFiles.h"
-#include "MeshFiles/RawSurface.h"
-
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <fstream>
 #include <sstream>
 #include <unordered_map>
+
+#include "Core/Errors.h"
+#include "MeshFiles/MeshFiles.h"
+#include "MeshFiles/RawSurface.h"
 
 namespace myotet::meshfiles {
 namespace fs = std::filesystem;
@@ -37,8 +37,7 @@ RawSurface read_raw(const fs::path& file) {
         throw InputError(file.string() + ": '" + extension +
                          "' is no surface format that is read; use .obj .off .stl .ply or .vtp");
     const std::string content = read_bytes(file);
-    if (content.empty())
-        throw InputError(file.string() + ": is empty; a closed surface is needed");
+    if (content.empty()) throw InputError(file.string() + ": is empty; a closed surface is needed");
     if (extension == ".obj") return parse_obj(content, file);
     if (extension == ".off") return parse_off(content, file);
     if (extension == ".stl") return parse_stl(content, file);
@@ -81,8 +80,8 @@ TriMesh merge_points(const RawSurface& raw) {
     const auto number = [&](std::int64_t corner) {
         const Vec3& p = raw.points[corner];
         // Adding zero makes -0 and 0 one place.
-        const auto [it, fresh] = number_at.try_emplace({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0},
-                                                       static_cast<std::int32_t>(mesh.points.size()));
+        const auto [it, fresh] = number_at.try_emplace(
+            {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}, static_cast<std::int32_t>(mesh.points.size()));
         if (fresh) mesh.points.push_back(p);
         return it->second;
     };

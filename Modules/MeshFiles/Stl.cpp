@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cstring>
+
 #include "Core/AtomicFile.h"
 #include "MeshFiles/MeshFiles.h"
 #include "MeshFiles/RawSurface.h"
 #include "MeshFiles/TextReader.h"
-
-#include <bit>
-#include <cstring>
 
 namespace myotet::meshfiles {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Errors.h"
-
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "Core/Errors.h"
 
 namespace myotet::meshfiles {
 

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Errors.h"
-#include "MeshFiles/MeshFiles.h"
-#include "MeshFiles/RawSurface.h"
-
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -17,6 +13,10 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <mutex>
+
+#include "Core/Errors.h"
+#include "MeshFiles/MeshFiles.h"
+#include "MeshFiles/RawSurface.h"
 
 namespace myotet::meshfiles {
 namespace {
@@ -104,8 +104,9 @@ template <class Take>
 void for_each_cell(vtkCellArray* cells, const std::filesystem::path& file, Take&& take) {
     if (!cells) return;
     if (!cells->IsValid())
-        throw IoError(file.string() +
-                      ": its cells point past their own list; the file is damaged, export it again");
+        throw IoError(
+            file.string() +
+            ": its cells point past their own list; the file is damaged, export it again");
     for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c) {
         vtkIdType count = 0;
         const vtkIdType* indices = nullptr;
@@ -125,8 +126,7 @@ RawSurface surface_of(vtkPolyData& data, const std::filesystem::path& file) {
     });
     for_each_cell(data.GetStrips(), file, [&](vtkIdType, std::span<const vtkIdType> strip) {
         for (std::size_t i = 2; i < strip.size(); ++i)  // every other triangle is turned
-            surface.triangles.push_back(
-                {strip[i - 2 + i % 2], strip[i - 1 - i % 2], strip[i]});
+            surface.triangles.push_back({strip[i - 2 + i % 2], strip[i - 1 - i % 2], strip[i]});
     });
     return surface;
 }

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/AtomicFile.h"
-#include "Core/Errors.h"
-#include "MeshFiles/MeshFiles.h"
-
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -15,6 +11,10 @@
 #include <vtkTypeInt32Array.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
+
+#include "Core/AtomicFile.h"
+#include "Core/Errors.h"
+#include "MeshFiles/MeshFiles.h"
 
 namespace myotet::meshfiles {
 namespace {

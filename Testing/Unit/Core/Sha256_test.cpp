@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/Sha256.h"
 
+#include <gtest/gtest.h>
+
 #include "Core/Errors.h"
 #include "Support/TemporaryFolder.h"
-
-#include <gtest/gtest.h>
 
 namespace myotet {
 namespace {

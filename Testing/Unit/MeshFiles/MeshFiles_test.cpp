@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MeshFiles/MeshFiles.h"
 
-#include "Core/Errors.h"
-#include "Support/TemporaryFolder.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
 
+#include "Core/Errors.h"
+#include "Support/TemporaryFolder.h"
+
 namespace myotet::meshfiles {
 namespace {
 
-using ::testing::HasSubstr;
 using myotet::testing::read_bytes;
 using myotet::testing::TemporaryFolder;
 using myotet::testing::write_bytes;
+using ::testing::HasSubstr;
 
 // Coordinates that .stl holds as 32-bit numbers: 2^-24 relative, at most 10 mm.
 constexpr double kFloatTolerance = 1e-6;
@@ -32,10 +32,12 @@ TetMesh two_tets() {
             {7, 12}};
 }
 
-const char* const kObj = "# SPACE=LPS\nv 0 0 0\nv 2 0 0 1\nv 0 3 0\nv 0 0 4e0\nvn 0 0 1\n"
-                         "f 1/1/1 3//1 2\nf 1 2 4\nf -4 -1 -2\nf 2 3 4\n";
-const char* const kOff = "OFF # a comment\n4 4 0\n\n0 0 0\n2 0 0\n0 3 0\n0 0 4\n"
-                         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3 255 0 0\n";
+const char* const kObj =
+    "# SPACE=LPS\nv 0 0 0\nv 2 0 0 1\nv 0 3 0\nv 0 0 4e0\nvn 0 0 1\n"
+    "f 1/1/1 3//1 2\nf 1 2 4\nf -4 -1 -2\nf 2 3 4\n";
+const char* const kOff =
+    "OFF # a comment\n4 4 0\n\n0 0 0\n2 0 0\n0 3 0\n0 0 4\n"
+    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3 255 0 0\n";
 const char* const kPly =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
     "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "JobStages.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "Core/Parallel.h"
+#include "LevelSet/FromSurface.h"
+#include "MeshFiles/MeshFiles.h"
+#include "Meshing/Refine.h"
+
+namespace myotet::app {
+namespace {
+
+using levelset::LabelLevelSets;
+
+std::string in_mm(double length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g mm", length);
+    return text;
+}
+
+std::vector<std::int32_t> values_of(const std::vector<Tissue>& tissues) {
+    std::vector<std::int32_t> values;
+    for (const Tissue& tissue : tissues) values.push_back(tissue.label);
+    return values;
+}
+
+/// A surface is one region in its own coordinates, which are the patient's.
+LabelLevelSets level_sets_of_surface(const Scan& scan, const meshing::Options& sizes,
+                                     const JobOptions& options, ProgressSink& progress) {
+    LabelLevelSets sets;
+    sets.spacing = level_set_spacing(sizes, scan);
+    sets.smooth = std::max(0.0, options.smooth);
+    const Tissue& tissue = scan.tissues.front();
+    sets.regions.push_back(
+        {.label = tissue.label,
+         .volume_labels = tissue.volume,
+         .phi = levelset::from_surface(
+             *scan.surface, {.spacing = sets.spacing, .smooth = sets.smooth}, progress)});
+    return sets;
+}
+
+double count_tets(const std::vector<TissueMesh>& tissues) {
+    double count = 0;
+    for (const TissueMesh& tissue : tissues) count += static_cast<double>(tissue.mesh.tets.size());
+    return count;
+}
+
+/// One region of a surface holds all its pieces.
+void count_surface_pieces(const Scan& scan, std::vector<TissueMesh>& tissues) {
+    if (!scan.surface) return;
+    TissueReport& report = tissues.front().report;
+    report.components_in = scan.shells;
+    if (report.components_out < scan.shells)
+        report.notes.push_back(std::to_string(scan.shells - report.components_out) +
+                               " closed pieces of the surface lie within others, touch them or "
+                               "are too small to be meshed");
+}
+
+}  // namespace
+
+LabelLevelSets make_level_sets(const Scan& scan, const meshing::Options& sizes,
+                               const JobOptions& options, ProgressSink& progress) {
+    if (scan.surface) return level_sets_of_surface(scan, sizes, options, progress);
+    return levelset::from_labels(
+        *scan.volume, values_of(scan.tissues),
+        {.spacing = level_set_spacing(sizes, scan), .smooth = options.smooth}, progress);
+}
+
+std::vector<TissueMesh> mesh_to_size(LabelLevelSets& sets, const Scan& scan,
+                                     meshing::Options& sizes, std::int64_t wished_tets,
+                                     ProgressSink& progress) {
+    constexpr int kMostTries = 3;
+    const auto wished = static_cast<double>(wished_tets);
+    const auto after = wished_tets > 0 ? LevelSets::kept : LevelSets::released;
+    if (wished_tets > 0) sizes = sizes_for_total(sets.regions, sizes, wished, progress);
+    std::vector<TissueMesh> tissues;
+    for (int tries = 1;; ++tries) {
+        const meshing::LevelPlan plan = meshing::plan_levels(sizes);
+        progress.note("edge length " + in_mm(sizes.edge_length) + " on the surface, up to " +
+                      in_mm(plan.coarsest_edge) + " inside");
+        tissues = mesh_tissues(sets, scan.tissues, sizes, after, progress);
+        // Refinement that follows compression can miss the number that the
+        // candidates had: then a better edge length.
+        const double excess = wished_tets > 0 ? count_tets(tissues) / wished : 1;
+        if (std::abs(excess - 1) <= kTetsTolerance || tries == kMostTries) break;
+        sizes = rescaled(sizes, excess);
+    }
+    count_surface_pieces(scan, tissues);
+    return tissues;
+}
+
+void write_tissue(TissueMesh& tissue, OutputFolder& out) {
+    const std::string stem = file_stem(tissue.report.label, tissue.report.name);
+    out.write(stem + ".vtu", [&](const std::filesystem::path& file) {
+        meshfiles::write_vtu(tissue.mesh, {{tissue.report.label, tissue.report.name}}, file);
+    });
+    out.write(stem + ".stl", [&](const std::filesystem::path& file) {
+        meshfiles::write_stl(boundary_surface(tissue.mesh), file);
+    });
+    tissue.report.files = {stem + ".vtu", stem + ".stl"};
+}
+
+RunReport describe_run(const JobOptions& options, const Scan& scan, const meshing::Options& sizes,
+                       const LabelLevelSets& sets) {
+    const meshing::LevelPlan plan = meshing::plan_levels(sizes);
+    RunReport report;
+    report.input = options.input.string();
+    report.input_sha256 = scan.sha256;
+    report.output = options.output.string();
+    report.labels = values_of(scan.tissues);
+    report.options_text = {
+        {"names_from", scan.names_from.string()},
+        {"compress", options.compress},
+        {"input_unit", options.input_unit.empty() && scan.surface ? "mm" : options.input_unit}};
+    report.options_number = {
+        {"tets", options.sizes.tets > 0 ? static_cast<double>(options.sizes.tets) : NAN},
+        {"edge_length_mm", sizes.edge_length},
+        {"interior_edge_length_mm", plan.coarsest_edge},
+        {"smallest_edge_length_mm", plan.smallest_edge},
+        {"curvature", sizes.curvature_factor},
+        {"smooth_mm", sets.smooth},
+        {"level_set_spacing_mm", sets.spacing}};
+    report.threads = thread_count();
+    report.warnings = scan.warnings;
+    return report;
+}
+
+}  // namespace myotet::app
