@@ -35,7 +35,9 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     Scan scan = read(options, progress);
     meshing::Options sizes = choose_sizes(options.sizes, scan);
     sizes.validate();
-    require_room_for(forecast(sizes, scan), available_memory());
+    const Forecast expected = forecast(sizes, scan);
+    require_room_for(expected, available_memory());
+    progress.note(to_sentence(expected));
     progress.check();
     seconds["read"] = watch.lap();
 

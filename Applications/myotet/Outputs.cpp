@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <ranges>
 
 #include "Core/Errors.h"
@@ -33,6 +34,12 @@ std::string_view shortened(std::string_view text) {
                   "; name another with -o");
 }
 
+/// Last made, first removed; a folder that holds other things stays.
+void remove_all(const std::vector<fs::path>& made) {
+    std::error_code ignored;
+    for (const fs::path& path : made | std::views::reverse) fs::remove(path, ignored);
+}
+
 }  // namespace
 
 std::string file_stem(std::int32_t value, std::string_view name) {
@@ -43,35 +50,39 @@ std::string file_stem(std::int32_t value, std::string_view name) {
 }
 
 OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
-    fs::path standing = fs::absolute(folder_).lexically_normal();
-    if (!standing.has_filename()) standing = standing.parent_path();
+    // Rights alone do not tell: the disk may be read-only, or not take files.
+    const std::vector<fs::path> fresh = make_folders();
+    const fs::path probe = folder_ / (".probe" + std::to_string(::getpid()));
+    const bool taken = static_cast<bool>(std::ofstream(probe) << ' ' << std::flush);
     std::error_code ignored;
-    while (!fs::exists(standing, ignored) && standing.has_relative_path())
-        standing = standing.parent_path();
-    if (!fs::is_directory(standing, ignored))
-        refuse(folder_, standing.string() + " is not a folder");
-    if (::access(standing.c_str(), W_OK | X_OK) != 0)
-        refuse(folder_, standing.string() + " may not be written to");
+    fs::remove(probe, ignored);
+    remove_all(fresh);
+    if (!taken) refuse(folder_, "no file can be created there");
 }
 
 OutputFolder::~OutputFolder() {
-    if (kept_) return;
-    std::error_code ignored;  // a folder that holds other things stays
-    for (const fs::path& made : made_ | std::views::reverse) fs::remove(made, ignored);
+    if (!kept_) remove_all(made_);
+}
+
+std::vector<fs::path> OutputFolder::make_folders() const {
+    std::vector<fs::path> fresh;
+    std::error_code error;
+    for (fs::path missing = folder_; !missing.empty() && !fs::exists(missing, error);
+         missing = missing.parent_path())
+        fresh.insert(fresh.begin(), missing);
+    fs::create_directories(folder_, error);
+    if (!fs::is_directory(folder_, error)) {
+        remove_all(fresh);
+        refuse(folder_, error ? "it cannot be created (" + error.message() + ")"
+                              : "it is a file, not a folder");
+    }
+    return fresh;
 }
 
 void OutputFolder::write(const std::string& name,
                          const std::function<void(const fs::path&)>& write) {
-    fs::path missing = folder_;
-    std::vector<fs::path> to_make;
-    while (!missing.empty() && !fs::exists(missing)) {
-        to_make.push_back(missing);
-        missing = missing.parent_path();
-    }
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    made_.insert(made_.end(), to_make.rbegin(), to_make.rend());
-    if (error) refuse(folder_, "it cannot be created (" + error.message() + ")");
+    const std::vector<fs::path> fresh = make_folders();
+    made_.insert(made_.end(), fresh.begin(), fresh.end());
     try {
         write(folder_ / name);
     } catch (const IoError& failure) {

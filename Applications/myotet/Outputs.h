@@ -17,7 +17,7 @@ namespace myotet::app {
 /// keep() is called, what was written is removed again.
 class OutputFolder {
 public:
-    /// Throws IoError when files could not be written there; creates nothing.
+    /// Throws IoError when files cannot be written there; leaves nothing behind.
     explicit OutputFolder(std::filesystem::path folder);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
@@ -30,6 +30,9 @@ public:
     void keep() { kept_ = true; }
 
 private:
+    /// Creates the folder and those above it; returns the new ones, outermost first.
+    std::vector<std::filesystem::path> make_folders() const;
+
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> made_;  ///< folders and files, in order
     bool kept_ = false;

@@ -81,6 +81,14 @@ std::string to_json(const RunReport& report) {
     return run.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string to_json(const Forecast& forecast) {
+    const Json json = {{"edge_length_mm", forecast.edge_length},
+                       {"tets", forecast.tets},
+                       {"memory_bytes", forecast.bytes},
+                       {"processor_seconds", forecast.seconds}};
+    return json.dump(2) + "\n";
+}
+
 std::string to_table(const RunReport& report) {
     std::string table =
         "                                                        dihedral angle  aspect   volume   "

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "MeshReport.h"
+#include "Sizing.h"
 
 namespace myotet::app {
 
 /// report.json's content.
 [[nodiscard]] std::string to_json(const RunReport& report);
+
+/// A forecast for programs.
+[[nodiscard]] std::string to_json(const Forecast& forecast);
 
 /// The tissues as a table for people.
 [[nodiscard]] std::string to_table(const RunReport& report);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
@@ -126,17 +128,26 @@ Forecast forecast(const meshing::Options& sizes, const Scan& scan) {
     return result;
 }
 
+std::string to_sentence(const Forecast& forecast) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "forecast at an edge length of %.3g mm: about %.2g tetrahedra, %.2g GB of memory, "
+        "%.2g s of processor time",
+        forecast.edge_length, forecast.tets, 1e-9 * forecast.bytes, forecast.seconds);
+    return text;
+}
+
 void require_room_for(const Forecast& forecast, double available_bytes) {
-    const auto whole = [](double x) { return std::to_string(static_cast<long long>(x)); };
-    const std::string at = "edge length " + std::to_string(forecast.edge_length) +
-                           " mm: would make about " + whole(forecast.tets) + " tetrahedra";
+    char limit[160];
     if (!(forecast.tets <= kMostTets))
-        throw ResourceError(at + ", more than the " + whole(kMostTets) +
-                            " that one run can number; use a longer --edge-length");
-    if (!(forecast.bytes <= available_bytes))
-        throw ResourceError(at + " and need about " + whole(forecast.bytes / 1e6) + " MB, but " +
-                            whole(available_bytes / 1e6) +
-                            " MB are available; use a longer --edge-length or fewer --labels");
+        std::snprintf(limit, sizeof limit, "one run can number %.2g tetrahedra", kMostTets);
+    else if (!(forecast.bytes <= available_bytes))
+        std::snprintf(limit, sizeof limit, "%.2g GB are available", 1e-9 * available_bytes);
+    else
+        return;
+    throw ResourceError(to_sentence(forecast) + ", but " + limit +
+                        "; use a longer --edge-length or fewer --labels");
 }
 
 meshing::Options options_for(const levelset::Region& region, meshing::Options sizes) {

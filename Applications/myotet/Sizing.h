@@ -34,6 +34,9 @@ struct Forecast {
 
 [[nodiscard]] Forecast forecast(const meshing::Options& sizes, const Scan& scan);
 
+/// "forecast: ..." for people.
+[[nodiscard]] std::string to_sentence(const Forecast& forecast);
+
 /// Throws ResourceError when the forecast does not fit into the memory that is
 /// available or the indices.
 void require_room_for(const Forecast& forecast, double available_bytes);

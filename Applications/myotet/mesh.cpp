@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -77,12 +76,7 @@ void add_options(CLI::App& command, Arguments& a) {
 
 ExitCode print_forecast(const Arguments& a, ProgressSink& progress) {
     const Forecast f = forecast_job(a.job, progress);
-    const char* form = a.json
-                           ? "{\"edge_length_mm\": %.6g, \"tets\": %.0f, \"memory_bytes\": %.0f, "
-                             "\"processor_seconds\": %.1f}\n"
-                           : "edge length      %.3g mm\ntetrahedra       about %.0f\n"
-                             "memory           about %.0f bytes\nprocessor time   about %.1f s\n";
-    std::printf(form, f.edge_length, f.tets, f.bytes, f.seconds);
+    std::cout << (a.json ? to_json(f) : to_sentence(f) + "\n") << std::flush;
     return ExitCode::done;
 }
 
