@@ -2,24 +2,9 @@
 #include "LevelSet/Band.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace myotet::levelset {
 namespace {
-
-// The part of a block that an axis of a gathered box takes from the lower
-// neighbour (side -1), the block itself (0) or the upper neighbour (1).
-struct Part {
-    int begin, end;  // in the gathered box
-    int first;       // sample of the source block that lands at `begin`
-};
-
-Part part_of(int side, int low, int high) {
-    constexpr int n = Band::kSide;
-    if (side < 0) return {0, low, n - low};
-    if (side > 0) return {low + n, low + n + high, 0};
-    return {low, low + n, 0};
-}
 
 float value_at(const Band& band, const Index3& p) {
     constexpr int n = Band::kSide;
@@ -31,29 +16,8 @@ float value_at(const Band& band, const Index3& p) {
 }  // namespace
 
 void gather(const Band& band, const Index3& b, int low, int high, float* out) {
-    constexpr int n = Band::kSide;
-    const int side = low + n + high;
-    for (int dz = low ? -1 : 0; dz <= (high ? 1 : 0); ++dz)
-        for (int dy = low ? -1 : 0; dy <= (high ? 1 : 0); ++dy)
-            for (int dx = low ? -1 : 0; dx <= (high ? 1 : 0); ++dx) {
-                const Part x = part_of(dx, low, high), y = part_of(dy, low, high),
-                           z = part_of(dz, low, high);
-                const std::int32_t number = band.find({b[0] + dx, b[1] + dy, b[2] + dz});
-                const float* source = number >= 0 ? band.block(number) : nullptr;
-                const float empty = band.empty_value(number);
-                for (int k = z.begin; k < z.end; ++k)
-                    for (int j = y.begin; j < y.end; ++j) {
-                        float* row = out + (k * side + j) * side;
-                        if (!source) {
-                            std::fill(row + x.begin, row + x.end, empty);
-                            continue;
-                        }
-                        const float* from =
-                            source + ((k - z.begin + z.first) * n + (j - y.begin + y.first)) * n +
-                            x.first;
-                        std::copy(from, from + (x.end - x.begin), row + x.begin);
-                    }
-            }
+    gather(band, band.values.data(), b, low, high,
+           [&](std::int32_t number) { return band.empty_value(number); }, out);
 }
 
 void mark_unstored_blocks(Band& band) {
@@ -62,7 +26,7 @@ void mark_unstored_blocks(Band& band) {
     std::size_t slot = 0;
     for (int k = 0; k < band.blocks[2]; ++k)
         for (int j = 0; j < band.blocks[1]; ++j) {
-            std::int32_t now = Band::kOutside;
+            std::int32_t now = band.beyond;
             for (int i = 0; i < band.blocks[0]; ++i, ++slot) {
                 std::int32_t& number = band.block_of[slot];
                 if (number >= 0)

@@ -3,6 +3,7 @@
 
 #include "LevelSet/LevelSet.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct Band {
     double spacing = 0;                  ///< mm
     float width = 0;                     ///< samples with |phi| < width are distances, mm
     Index3 blocks{0, 0, 0};              ///< blocks along each axis
+    std::int32_t beyond = kOutside;      ///< what lies around the table: kOutside or kInside
     std::vector<std::int32_t> block_of;  ///< per block, i fastest: its number, kOutside or kInside
     std::vector<Index3> position;        ///< per stored block: its place among the blocks
     std::vector<float> values;           ///< kSize a stored block, i fastest, mm
@@ -31,10 +33,10 @@ struct Band {
     [[nodiscard]] std::size_t slot(const Index3& b) const {
         return (static_cast<std::size_t>(b[2]) * blocks[1] + b[1]) * blocks[0] + b[0];
     }
-    /// Number of the block, or kOutside beyond the table.
+    /// Number of the block, kOutside or kInside.
     [[nodiscard]] std::int32_t find(const Index3& b) const {
         for (int a = 0; a < 3; ++a)
-            if (b[a] < 0 || b[a] >= blocks[a]) return kOutside;
+            if (b[a] < 0 || b[a] >= blocks[a]) return beyond;
         return block_of[slot(b)];
     }
     [[nodiscard]] float* block(std::int32_t number) {
@@ -50,13 +52,44 @@ struct Band {
 };
 
 /// Copies the samples of block `b` with `low` layers of its lower and `high`
-/// layers of its upper neighbours, i fastest, into (low + 8 + high)^3 floats.
-/// The block need not be stored.
+/// layers of its upper neighbours, i fastest, into (low + 8 + high)^3 places.
+/// `empty` names what an unstored block, by its number, holds everywhere; the
+/// block itself need not be stored. `samples` are kSize a stored block.
+template <class T, class Empty>
+void gather(const Band& band, const T* samples, const Index3& b, int low, int high, Empty&& empty,
+            T* out) {
+    constexpr int n = Band::kSide;
+    const int side = low + n + high;
+    // Of each axis: where the lower neighbour, the block and the upper one
+    // begin and end in `out`, and the source's first sample there.
+    const int begin[3] = {0, low, low + n}, end[3] = {low, low + n, side}, first[3] = {n - low, 0, 0};
+    for (int z = low ? 0 : 1; z <= (high ? 2 : 1); ++z)
+        for (int y = low ? 0 : 1; y <= (high ? 2 : 1); ++y)
+            for (int x = low ? 0 : 1; x <= (high ? 2 : 1); ++x) {
+                const std::int32_t number = band.find({b[0] + x - 1, b[1] + y - 1, b[2] + z - 1});
+                const T* source =
+                    number >= 0 ? samples + static_cast<std::size_t>(number) * Band::kSize : nullptr;
+                for (int k = begin[z]; k < end[z]; ++k)
+                    for (int j = begin[y]; j < end[y]; ++j) {
+                        T* row = out + (k * side + j) * side;
+                        if (!source) {
+                            std::fill(row + begin[x], row + end[x], empty(number));
+                            continue;
+                        }
+                        const T* from = source +
+                                        ((k - begin[z] + first[z]) * n + j - begin[y] + first[y]) * n +
+                                        first[x];
+                        std::copy(from, from + (end[x] - begin[x]), row + begin[x]);
+                    }
+            }
+}
+
+/// The same for the band's own values.
 void gather(const Band& band, const Index3& b, int low, int high, float* out);
 
 /// Marks every unstored block as inside or outside from the stored ones. The
-/// outermost blocks must lie outside or be stored, and no interface may run
-/// between a stored and an unstored block.
+/// outermost blocks must be stored or agree with `beyond`, and no interface may
+/// run between a stored and an unstored block.
 void mark_unstored_blocks(Band& band);
 
 /// Trilinear value and gradient at a point, clamped to the band's lattice;

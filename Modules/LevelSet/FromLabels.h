@@ -13,11 +13,17 @@ namespace myotet::levelset {
 
 /// How labels become level sets.
 struct LabelOptions {
-    /// Sample distance of the isotropic grid, mm; 0 chooses it from the voxel size.
+    /// Sample distance of the isotropic grid, mm; 0 chooses it: the smallest
+    /// voxel side where that is affordable, else as fine as memory lets it, and
+    /// no wider than the geometric mean of the sides.
     double spacing = 0;
     /// How far motion by mean curvature may move a sharp voxel corner, mm; 0 is no
-    /// smoothing; negative chooses it from the voxel size.
+    /// smoothing; negative chooses half the largest voxel side: the staircase of a
+    /// smooth surface strays that far from it, and no more needs undoing. Across
+    /// shorter sides of a voxel the bound is shorter in proportion.
     double smooth = -1;
+    /// Bytes the work may hold at its peak, the result included.
+    double max_memory = 8e9;
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
@@ -43,13 +49,15 @@ struct LabelLevelSets {
 };
 
 /// Turns the components of `labels` (6-connected voxels) into signed distances
-/// that share walls: fast marching, motion by mean curvature with
-/// reinitialisation, volume given back, and a partition in which the
-/// background, with every label not asked for, is one region more.
+/// that share walls: distances to the voxels' walls, motion by mean curvature
+/// with reinitialisation, volume given back, and a partition in which the
+/// background, with every label not asked for and all that lies outside the
+/// volume, is one region more. Sheets, tubes and specks keep their place.
 /// Sources: [Teran05, sec. 5]; partition: Losasso, Shinar, Selle, Fedkiw (2006),
 /// Multiple interacting liquids, ACM Trans. Graph. 25(3).
 /// Throws InputError when a label is not in the volume, ResourceError when the
 /// grid would not fit, Interrupted.
+/// Cost: a pass or two over the voxels, then O(wall area / spacing^2).
 [[nodiscard]] LabelLevelSets from_labels(const LabelVolume& volume,
                                          std::span<const std::int32_t> labels,
                                          const LabelOptions& options, ProgressSink& progress);

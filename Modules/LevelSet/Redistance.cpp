@@ -77,8 +77,21 @@ Foot in_spacings(const Band& band, const Vec3& p) {
     return ((p - band.origin) / band.spacing).cast<float>();
 }
 
-// Samples with a neighbour of the other sign: their foot is the nearest of the
-// zeros on the edges to those neighbours, then slid along the interface.
+// Foot of a sample next to the interface, as an offset in spacings: along the
+// gradient by central differences, x - phi grad phi / |grad phi|^2, or, where
+// that leads farther, on the nearest of the edges to neighbours of the other
+// sign.
+Foot first_offset(const float* phi, float inverse_spacing, const Foot& edge) {
+    constexpr int steps[3] = {1, kApron, kApron * kApron};
+    Foot gradient;
+    for (int a = 0; a < 3; ++a)
+        gradient[a] = 0.5f * inverse_spacing * (phi[steps[a]] - phi[-steps[a]]);
+    const float slope2 = gradient.squaredNorm();
+    const Foot newton = -inverse_spacing * phi[0] / std::max(slope2, 1e-6f) * gradient;
+    return slope2 > 0.1f && newton.squaredNorm() <= edge.squaredNorm() ? newton : edge;
+}
+
+// Gives samples with a neighbour of the other sign their foot.
 void seed_block(const Band& band, std::size_t b, int slides, Work& work) {
     std::array<float, kApron * kApron * kApron> phi;
     gather(band, band.position[b], 1, 1, phi.data());
@@ -87,7 +100,7 @@ void seed_block(const Band& band, std::size_t b, int slides, Work& work) {
         const int here = ((at / 64 + 1) * kApron + at / 8 % 8 + 1) * kApron + at % 8 + 1;
         const float v = phi[here];
         float nearest = std::numeric_limits<float>::infinity();
-        Foot offset = Foot::Zero();
+        Foot edge = Foot::Zero();
         for (int a = 0; a < 3; ++a)
             for (const int side : {-1, 1}) {
                 const float w = phi[here + side * steps[a]];
@@ -95,15 +108,19 @@ void seed_block(const Band& band, std::size_t b, int slides, Work& work) {
                 const float t = v == w ? 0.5f : v / (v - w);
                 if (t < nearest) {
                     nearest = t;
-                    offset = side * t * Foot::Unit(a);
+                    edge = side * t * Foot::Unit(a);
                 }
             }
         if (!(nearest <= 1)) continue;
         const Foot p = place(band, b, at);
-        Vec3 foot = in_mm(band, p + offset);
-        slide(band, in_mm(band, p), std::max(slides, 1), foot);
-        const std::size_t i = b * kSize + at;
-        work.foot[i] = in_spacings(band, foot);
+        Foot& out = work.foot[b * kSize + at];
+        if (slides > 0) {
+            Vec3 foot = in_mm(band, p + edge);
+            slide(band, in_mm(band, p), slides, foot);
+            out = in_spacings(band, foot);
+        } else {
+            out = p + first_offset(phi.data() + here, 1 / float(band.spacing), edge);
+        }
         work.seeds[b][at / 64] |= std::uint64_t{1} << (at % 64);
     }
     work.known[b] = work.grown[b] = work.seeds[b];
@@ -228,6 +245,7 @@ Band refit(const Band& band, float width) {
     out.origin = band.origin;
     out.spacing = band.spacing;
     out.width = width;
+    out.beyond = band.beyond;
     out.blocks = band.blocks;
     std::vector<char> wanted(band.block_of.size(), 0);
     const int reach = static_cast<int>(std::ceil(width / band.spacing));

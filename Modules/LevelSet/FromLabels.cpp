@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LevelSet/FromLabels.h"
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "LevelSet/Flow.h"
+#include "LevelSet/LabelGrid.h"
+#include "LevelSet/Measure.h"
+#include "LevelSet/Partition.h"
+#include "LevelSet/Redistance.h"
+#include "LevelSet/RegionMap.h"
+#include "LevelSet/VoxelBand.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+namespace myotet::levelset {
+namespace {
+
+// Half widths of the bands, in samples.
+constexpr double kWorkWidth = 3, kResultWidth = 3;
+// The flow lasts longer than a corner needs to reach the allowance, so that
+// the steps of slowly sloping surfaces, several voxels long, are levelled too;
+// locks hold what has arrived.
+constexpr double kLonger = 4;
+// Displacement is given back on the scale of this many times the allowance:
+// three half voxels, beyond the steps and within the shapes they make up.
+constexpr double kGiveBack = 3;
+
+// Regions one by one on as many threads as there are, with progress. Each
+// result depends on its region alone.
+void each_region(std::size_t count, std::string_view stage, ProgressSink& progress,
+                 const std::function<void(std::size_t)>& body) {
+    progress.report(stage, 0);
+    std::atomic<std::size_t> done = 0;
+    parallel_for(0, count, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t r = first; r < last; ++r) {
+            progress.check();
+            body(r);
+            progress.report(stage, double(++done) / double(count));
+        }
+    });
+}
+
+Allowance allowance_for(const LabelGrid& grid) {
+    Allowance allowance;
+    allowance.voxels = grid.smooth / grid.lattice.plane_spacing.maxCoeff();
+    // Locks look one voxel far.
+    if (allowance.voxels > 1) allowance.voxels = std::numeric_limits<double>::infinity();
+    return allowance;
+}
+
+void smooth_region(const LabelGrid& grid, RegionBand& region) {
+    const double time = flow_time(grid.smooth);
+    const bool bounded = std::isfinite(allowance_for(grid).voxels);
+    const Locks locks{region.locks, region.lock_unit};
+    region.held_back =
+        flow_by_mean_curvature(region.band, bounded ? kLonger * time : time, locks, kGiveBack * grid.smooth) > 0;
+}
+
+Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand& work) {
+    Region region;
+    region.label = voxels.label;
+    region.component = voxels.component;
+    region.voxels = voxels.voxels;
+    region.volume_labels = static_cast<double>(voxels.voxels) * voxel_volume;
+    region.smoothed_less = work.held_back;
+    Band band = refit(work.band, static_cast<float>(kResultWidth * work.band.spacing));
+    work = {};
+    redistance(band, Seeds::keep, 2);
+    region.phi = assemble(band);
+    region.volume_level_set = enclosed_volume(region.phi);
+    region.inscribed_radius = inscribed_radius(region.phi);
+    return region;
+}
+
+}  // namespace
+
+void LabelOptions::validate() const {
+    const auto require = [](bool good, const char* field, double value, const char* rule) {
+        if (good) return;
+        std::ostringstream out;
+        out << field << " is " << value << " but must be " << rule;
+        throw InputError(out.str());
+    };
+    require(spacing >= 0 && std::isfinite(spacing), "spacing", spacing,
+            "a length in mm, or 0 to have it chosen");
+    require(std::isfinite(smooth), "smooth", smooth, "a length in mm, or negative to have it chosen");
+    require(max_memory > 0, "max_memory", max_memory, "a positive number of bytes");
+}
+
+LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32_t> labels,
+                           const LabelOptions& options, ProgressSink& progress) {
+    options.validate();
+    progress.report("distances", 0);
+    RegionMap map = map_regions(volume, labels);
+    const auto walls = shared_walls(map, face_area(volume));
+    const LabelGrid grid = lay_grid(volume, walls, options);
+    const Allowance allowance = allowance_for(grid);
+
+    std::vector<RegionBand> work(map.regions.size() + 1);
+    each_region(work.size(), "distances", progress, [&](std::size_t r) {
+        work[r] = voxel_band(map, static_cast<RegionMap::Owner>(r), grid.lattice, allowance,
+                             kWorkWidth);
+    });
+    each_region(work.size(), "smoothing", progress,
+                [&](std::size_t r) { smooth_region(grid, work[r]); });
+
+    progress.report("partition", 0);
+    std::vector<double> volumes(work.size(), 0.0);
+    for (std::size_t r = 1; r < work.size(); ++r)
+        volumes[r] = static_cast<double>(map.regions[r - 1].voxels) * volume.voxel_volume();
+    make_partition(work, map, grid.lattice, walls, volumes, progress);
+    progress.report("partition", 1);
+
+    LabelLevelSets out;
+    out.frame = grid.frame;
+    out.spacing = grid.lattice.spacing;
+    out.smooth = grid.smooth;
+    out.regions.resize(map.regions.size());
+    work.front() = {};
+    each_region(map.regions.size(), "level sets", progress, [&](std::size_t r) {
+        out.regions[r] = finish_region(map.regions[r], volume.voxel_volume(), work[r + 1]);
+    });
+    return out;
+}
+
+}  // namespace myotet::levelset

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "LevelSet/Band.h"
+#include "LevelSet/RegionMap.h"
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace myotet::levelset {
+
+/// The lattice that all regions share: sample (I, J, K) at spacing * (I, J, K)
+/// in local coordinates, block B holding the samples from 8 B on.
+struct SharedLattice {
+    double spacing = 0;                        ///< mm
+    Index3 blocks{0, 0, 0};                    ///< that cover the volume and a margin
+    Eigen::Affine3d local_to_index;            ///< local coordinates, mm, to voxel index
+    Vec3 plane_spacing = Vec3::Zero();         ///< between voxel planes of each axis, mm
+};
+
+/// How far smoothing may carry an interface away from the voxels' walls.
+struct Allowance {
+    double voxels = 0.5;       ///< of a voxel's side along each axis; infinite: no bound
+    double thin_voxels = 0.15; ///< the same inside sheets, tubes and specks
+};
+
+/// A region while it is worked on.
+struct RegionBand {
+    Index3 first{0, 0, 0};            ///< the band's first block among the shared lattice's
+    Band band;
+    /// Per sample: the side that a sample beyond the allowance must stay on, as
+    /// a bound on phi: phi <= lock * unit where lock < 0, phi >= lock * unit
+    /// where lock > 0; odd locks are due to thin parts.
+    std::vector<std::int8_t> locks;
+    double lock_unit = 0;             ///< mm
+    bool held_back = false;           ///< a lock of a thin part stopped the flow
+};
+
+/// Signed distances from the walls of the voxels of `owner` in a band of
+/// `width` samples, exact next to the walls, with the locks. The distance from
+/// a point to the nearest voxel of the other kind is that to a box, so that no
+/// marching is needed.
+[[nodiscard]] RegionBand voxel_band(const RegionMap& map, RegionMap::Owner owner,
+                                    const SharedLattice& lattice, const Allowance& allowance,
+                                    double width);
+
+/// phi as its lock allows it.
+[[nodiscard]] inline float locked(float phi, std::int8_t lock, float unit) {
+    if (lock < 0) return std::min(phi, static_cast<float>(lock) * unit);
+    if (lock > 0) return std::max(phi, static_cast<float>(lock) * unit);
+    return phi;
+}
+
+}  // namespace myotet::levelset
