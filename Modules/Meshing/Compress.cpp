@@ -5,6 +5,7 @@
 #include "Core/Parallel.h"
 #include "Meshing/NodeEnergy.h"
 #include "Meshing/Stars.h"
+#include "Quality/Quality.h"
 
 #include <Eigen/Cholesky>
 
@@ -34,6 +35,9 @@ constexpr double kCornerWeight = 3.0 / 60, kEdgeWeight = 8.0 / 60, kCentreWeight
 constexpr double kFarOff = 0.07;
 // Tetrahedra whose q exceeds this (aspect ratio about 3) are worked on to the end.
 constexpr double kBad = 3.0;
+// Where the balance between shape and fit is shifted: an aspect ratio, a distance
+// in median edges, and by how much each time.
+constexpr double kTooLong = 4.2, kTooFar = 0.12, kShift = 3;
 
 // One stage: `sweeps` sweeps at exponent m and fit weight mu.
 struct Stage {
@@ -45,7 +49,8 @@ struct Stage {
 class Compressor {
 public:
     Compressor(TetMesh& mesh, const LevelSet& phi)
-        : x_(mesh.points), phi_(phi), stars_(mesh), dirty_(mesh.points.size(), 1) {
+        : x_(mesh.points), phi_(phi), stars_(mesh), dirty_(mesh.points.size(), 1),
+          weight_(mesh.points.size(), 1) {
         std::vector<double> scales;
         for (std::size_t v = 0; v < x_.size(); ++v)
             if (stars_.on_boundary(static_cast<std::int32_t>(v))) scales.push_back(stars_.scale[v]);
@@ -77,6 +82,29 @@ public:
         for (const Tet& t : mesh.tets)
             if (shape_energy(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]) > bound)
                 for (const std::int32_t n : t) dirty_[n] = 1;
+    }
+    // Shifts the balance where one side has lost: towards the shape at tetrahedra
+    // whose aspect ratio is too large, towards the fit at faces too far away.
+    void rebalance(const TetMesh& mesh, const std::vector<Triangle>& faces) {
+        std::vector<char> too_long(x_.size(), 0), too_far(x_.size(), 0);
+        for (const Tet& t : mesh.tets)
+            if (shape_energy(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]) > kBad &&
+                quality::measure(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]).aspect_ratio > kTooLong)
+                for (const std::int32_t n : t) too_long[n] = 1;
+        const auto is_far = [&](const Vec3& p) {
+            return std::abs(phi_.value(p) - offset_) > kTooFar * surface_scale_;
+        };
+        for (const Triangle& f : faces) {
+            const Vec3 &a = x_[f[0]], &b = x_[f[1]], &c = x_[f[2]];
+            if (is_far((a + b + c) / 3) || is_far(0.5 * (a + b)) || is_far(0.5 * (b + c)) ||
+                is_far(0.5 * (c + a)) || is_far(a) || is_far(b) || is_far(c))
+                for (const std::int32_t n : f) too_far[n] = 1;
+        }
+        for (std::size_t v = 0; v < x_.size(); ++v)
+            if (too_long[v] != too_far[v]) {
+                weight_[v] *= too_far[v] ? kShift : 1 / kShift;
+                dirty_[v] = 1;
+            }
     }
     void wake_all() { std::fill(dirty_.begin(), dirty_.end(), 1); }
 
@@ -123,7 +151,8 @@ private:
         Expansion e = energy.expand(u, stage.m);
         MYOTET_CHECK(e.value < std::numeric_limits<double>::infinity(),
                      "a positive star stays positive");
-        if (boundary) fit(v, start, stage.mu, &e);
+        const double mu = stage.mu * weight_[v];
+        if (boundary) fit(v, start, mu, &e);
         Eigen::LLT<Mat3> factor(e.hessian);
         if (factor.info() != Eigen::Success) {
             e.hessian.diagonal().array() += 1e-3 * e.hessian.cwiseAbs().maxCoeff() + 1e-12;
@@ -140,7 +169,7 @@ private:
             u = t * step;
             double value = energy.value(u, stage.m);
             if (!(value < std::numeric_limits<double>::infinity())) continue;
-            if (boundary) value += fit(v, start + h * u, stage.mu, nullptr);
+            if (boundary) value += fit(v, start + h * u, mu, nullptr);
             if (value <= e.value + 1e-4 * t * slope) {
                 x_[v] = start + h * u;
                 if (u.norm() > kStill) wake_star(v);
@@ -162,6 +191,7 @@ private:
     const LevelSet& phi_;
     Stars stars_;
     std::vector<char> dirty_;
+    std::vector<double> weight_;  // of the fit at each node
     double offset_ = 0;
     double surface_scale_ = 0;  // median scale of boundary nodes, mm
 };
@@ -183,7 +213,7 @@ constexpr Stage kDrive[] = {{1, 1, 3},   {1, 1, 10},  {1, 1, 30},  {1, 1, 100},
 constexpr Stage kShape{8, 4, 1e6};
 constexpr Stage kWorst{2, 8, 2e7};
 constexpr Stage kVolume{2, 2, 1e5};
-constexpr int kWorstRounds = 5;
+constexpr int kWorstRounds = 7, kFairRounds = 3;
 constexpr int kVolumeRounds = 3;
 
 }  // namespace
@@ -199,6 +229,7 @@ void fit_surface(TetMesh& mesh, const LevelSet& phi, ProgressSink& progress) {
 
 double polish(TetMesh& mesh, const LevelSet& phi, double wanted_volume, ProgressSink& progress) {
     Compressor compressor(mesh, phi);
+    const std::vector<Triangle> faces = boundary_faces(mesh.tets);
     double offset = 0;
     const auto correct_volume = [&] {
         // dV/dc is the area.
@@ -216,6 +247,7 @@ double polish(TetMesh& mesh, const LevelSet& phi, double wanted_volume, Progress
         correct_volume();
         if (wanted_volume > 0) compressor.wake_boundary();
         compressor.wake_bad(mesh, kBad);
+        if (i >= kFairRounds) compressor.rebalance(mesh, faces);
         compressor.run(kWorst, offset, progress);
     }
     return offset;

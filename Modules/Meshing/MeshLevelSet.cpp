@@ -5,6 +5,7 @@
 #include "Meshing/Compress.h"
 #include "Meshing/Refine.h"
 #include "Meshing/Select.h"
+#include "Quality/Quality.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +15,12 @@
 namespace myotet::meshing {
 namespace {
 
+// What a finished mesh shall not have where refining a few places can help: a
+// surface farther away than this part of the median edge, an aspect ratio.
+constexpr double kFarFault = 0.14, kShapeFault = 4.4;
+// Share of tetrahedra at faults that still counts as a few, and tries to mend them.
+constexpr double kFewFaults = 2e-3;
+constexpr int kFaultRounds = 2;
 // Trials of find_edge_length: each costs a candidate.
 constexpr int kSearchTrials = 8;
 // Measured on closed shapes: how thick the layer of small tetrahedra is.
@@ -47,12 +54,12 @@ void record(const Candidate& candidate, Summary& summary) {
 }
 
 // The lattice's tetrahedra around faces whose centre or edge midpoints lie
-// farther from phi = 0 than `tolerance` mm.
+// farther from the isosurface than `tolerance` mm.
 std::vector<lattice::RedTet> far_from_surface(const TetMesh& mesh,
                                               const std::vector<lattice::RedTet>& red,
-                                              const levelset::LevelSet& phi,
+                                              const levelset::LevelSet& phi, double isovalue,
                                               double tolerance) {
-    const auto off = [&](const Vec3& p) { return std::abs(phi.value(p)); };
+    const auto off = [&](const Vec3& p) { return std::abs(phi.value(p) - isovalue); };
     std::vector<char> marked(mesh.points.size(), 0);
     bool any = false;
     for (const Triangle& f : boundary_faces(mesh.tets)) {
@@ -71,38 +78,86 @@ std::vector<lattice::RedTet> far_from_surface(const TetMesh& mesh,
     return far;
 }
 
-// Everything up to a mesh that fits the surface: the lattice, and candidates that
-// are driven onto it and refined where they stay away.
-Result prepare(const levelset::LevelSet& phi, const Options& options, ProgressSink& progress) {
-    options.validate();
-    Stopwatch watch;
-    Result result;
-    Summary& summary = result.summary;
-    const LevelPlan plan = plan_levels(options);
-    progress.report("lattice", 0);
-    lattice::RedGreenLattice lattice = build_lattice(phi, options, plan, progress);
-    summary.edge_length = plan.surface_edge;
-    summary.levels = plan.max_level;
-    summary.seconds_lattice = watch.lap();
-    progress.report("lattice", 1);
-    for (;; ++summary.distance_rounds) {
-        progress.report("selection", summary.distance_rounds / (options.distance_rounds + 1.0));
-        Candidate candidate =
-            select_candidate(lattice, {.components = options.components}, progress);
-        record(candidate, summary);
-        result.mesh = std::move(candidate.mesh);
-        summary.seconds_select += watch.lap();
-        fit_surface(result.mesh, phi, progress);
-        summary.seconds_compress += watch.lap();
-        if (!(options.distance_factor > 0) || summary.distance_rounds >= options.distance_rounds)
-            return result;
-        const std::vector<lattice::RedTet> far = far_from_surface(
-            result.mesh, candidate.red, phi, options.distance_factor * options.edge_length);
-        if (far.empty() || lattice.refine(far) == 0) return result;
-        lattice.close();
-        summary.seconds_lattice += watch.lap();
+// The lattice and the way from it to a mesh; each step may refine it.
+class Mesher {
+public:
+    Mesher(const levelset::LevelSet& phi, const Options& options, ProgressSink& progress)
+        : phi_(phi),
+          options_(options),
+          progress_(progress),
+          plan_(plan_levels(options)),
+          lattice_(build_lattice(phi, options, plan_, progress)) {
+        summary.edge_length = plan_.surface_edge;
+        summary.levels = plan_.max_level;
+        summary.seconds_lattice = watch_.lap();
+        progress_.report("lattice", 1);
     }
-}
+
+    // Candidates are driven onto the surface, and the lattice refined where they
+    // stay away.
+    TetMesh fit() {
+        for (;;) {
+            Candidate candidate =
+                select_candidate(lattice_, {.components = options_.components}, progress_);
+            record(candidate, summary);
+            red_ = std::move(candidate.red);
+            summary.seconds_select += watch_.lap();
+            fit_surface(candidate.mesh, phi_, progress_);
+            summary.seconds_compress += watch_.lap();
+            if (summary.distance_rounds >= options_.distance_rounds ||
+                !(options_.distance_factor > 0) ||
+                !refine(far_from_surface(candidate.mesh, red_, phi_, 0,
+                                         options_.distance_factor * options_.edge_length)))
+                return std::move(candidate.mesh);
+            ++summary.distance_rounds;
+            progress_.report("selection",
+                             summary.distance_rounds / (options_.distance_rounds + 1.0));
+        }
+    }
+
+    void polish(TetMesh& mesh) {
+        summary.volume_offset = meshing::polish(mesh, phi_, options_.volume, progress_);
+        summary.seconds_compress += watch_.lap();
+    }
+
+    // Refines at the few places where the finished mesh is not good enough; false
+    // when there are none, or so many that the edge length is to blame.
+    bool refine_faults(const TetMesh& mesh) {
+        if (!(options_.distance_factor > 0)) return false;
+        const double far = kFarFault * quality::boundary_edge_lengths(mesh).median;
+        std::vector<lattice::RedTet> faults =
+            far_from_surface(mesh, red_, phi_, summary.volume_offset, far);
+        for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+            const Tet& n = mesh.tets[t];
+            if (quality::measure(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
+                                 mesh.points[n[3]])
+                    .aspect_ratio > kShapeFault)
+                faults.push_back(red_[t]);
+        }
+        if (static_cast<double>(faults.size()) >
+            kFewFaults * static_cast<double>(mesh.tets.size()))
+            return false;
+        return refine(faults);
+    }
+
+    Summary summary;
+
+private:
+    bool refine(const std::vector<lattice::RedTet>& tets) {
+        if (tets.empty() || lattice_.refine(tets) == 0) return false;
+        lattice_.close();
+        summary.seconds_lattice += watch_.lap();
+        return true;
+    }
+
+    const levelset::LevelSet& phi_;
+    const Options& options_;
+    ProgressSink& progress_;
+    Stopwatch watch_;
+    LevelPlan plan_;
+    lattice::RedGreenLattice lattice_;
+    std::vector<lattice::RedTet> red_;  // of the last candidate
+};
 
 }  // namespace
 
@@ -123,18 +178,25 @@ void Options::validate() const {
 
 Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
                       ProgressSink& progress) {
-    Result result = prepare(phi, options, progress);
+    options.validate();
+    progress.report("lattice", 0);
+    Mesher mesher(phi, options, progress);
+    TetMesh mesh = mesher.fit();
     progress.report("selection", 1);
-    Stopwatch watch;
-    result.summary.volume_offset = polish(result.mesh, phi, options.volume, progress);
-    result.summary.seconds_compress += watch.lap();
+    mesher.polish(mesh);
+    for (int round = 0; round < kFaultRounds && mesher.refine_faults(mesh); ++round) {
+        mesh = mesher.fit();
+        mesher.polish(mesh);
+        ++mesher.summary.fault_rounds;
+    }
     progress.report("compression", 1);
-    return result;
+    return {std::move(mesh), std::move(mesher.summary)};
 }
 
 std::int64_t count_tets(const levelset::LevelSet& phi, const Options& options,
                         ProgressSink& progress) {
-    return static_cast<std::int64_t>(prepare(phi, options, progress).mesh.tets.size());
+    options.validate();
+    return static_cast<std::int64_t>(Mesher(phi, options, progress).fit().tets.size());
 }
 
 double find_edge_length(double tets, double guess, double tolerance,

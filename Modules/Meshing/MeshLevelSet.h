@@ -20,7 +20,7 @@ struct Options {
     double interior_edge_length = 0;   ///< how coarse the inside may grow, mm; 0: 4x edge_length
     double smallest_edge_length = 0;   ///< how fine thin or curved parts may get, mm; 0: edge_length / 8
     double curvature_factor = 0;       ///< refine where edge > factor / (|k1| + |k2|); 0: off
-    double thickness_factor = 0.8;     ///< refine where edge > factor * local thickness; 0: off
+    double thickness_factor = 1.0;     ///< refine where edge > factor * local thickness; 0: off
     int components = 1;                ///< connected pieces that phi < 0 has; 0: not known, keep all
     double volume = 0;                 ///< volume that the mesh shall have, mm^3; 0: as phi says
     /// Refine where the finished surface is farther from phi = 0 than this part of
@@ -38,6 +38,7 @@ struct Summary {
     int levels = 0;                    ///< red levels below the coarsest
     int selection_passes = 0;
     int distance_rounds = 0;           ///< times the lattice was refined for the surface distance
+    int fault_rounds = 0;              ///< times it was refined at faults of the finished mesh
     std::int64_t candidate_tets = 0;
     double volume_offset = 0;          ///< isovalue that the surface was fitted to, mm
     double seconds_lattice = 0, seconds_select = 0, seconds_compress = 0;
