@@ -12,8 +12,8 @@ namespace {
 
 /// Voxels of the label that follow one another along i.
 struct Run {
-    int first = 0, last = 0;   // inclusive, relative to the box
-    std::int32_t parent = 0;   // union-find; the root is the set's first run
+    int first = 0, last = 0;  // inclusive, relative to the box
+    std::int32_t parent = 0;  // union-find; the root is the set's first run
 };
 
 /// Runs of the whole box; row r = k * size[1] + j holds [row_start[r], row_start[r + 1]).
@@ -45,9 +45,9 @@ Runs find_runs(const LabelVolume& volume, std::int32_t label, const Components& 
     for (int k = 0; k < box.size[2]; ++k)
         for (int j = 0; j < box.size[1]; ++j) {
             found.row_start.push_back(static_cast<std::int32_t>(found.runs.size()));
-            const std::int32_t* row = volume.values.data() +
-                                      volume.offset(box.origin[0], box.origin[1] + j,
-                                                    box.origin[2] + k);
+            const std::int32_t* row =
+                volume.values.data() +
+                volume.offset(box.origin[0], box.origin[1] + j, box.origin[2] + k);
             for (int i = 0; i < box.size[0];) {
                 if (row[i] != label) {
                     ++i;

@@ -16,9 +16,9 @@ struct ComponentBox {
 
 /// The connected components of one label inside a box of voxels.
 struct Components {
-    Index3 origin{0, 0, 0};              ///< the box's first voxel in the volume
-    Index3 size{0, 0, 0};                ///< voxels of the box along i, j, k
-    std::vector<std::int32_t> number;    ///< per voxel of the box, i fastest; -1 outside the label
+    Index3 origin{0, 0, 0};            ///< the box's first voxel in the volume
+    Index3 size{0, 0, 0};              ///< voxels of the box along i, j, k
+    std::vector<std::int32_t> number;  ///< per voxel of the box, i fastest; -1 outside the label
     std::vector<ComponentBox> components;  ///< largest first; equal ones by their first voxel
 };
 

@@ -86,8 +86,9 @@ std::vector<std::int32_t> match(const LabelVolume& volume, std::span<const Label
                          "; ask for one that it holds");
     for (const auto& [named, label] : volume.names)
         if (lower_case(label.name) == lower)
-            throw InputError("the label '" + word + "' (" + std::to_string(named) +
-                             ") is in the name table but has no voxels in the volume; leave it out");
+            throw InputError(
+                "the label '" + word + "' (" + std::to_string(named) +
+                ") is in the name table but has no voxels in the volume; leave it out");
     throw InputError("no label is called '" + word + "'; the nearest are " +
                      nearest_names(volume, counts, lower));
 }

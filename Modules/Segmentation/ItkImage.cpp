@@ -26,8 +26,8 @@ std::string cause(const itk::ExceptionObject& error) {
     std::string text = error.GetDescription();
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     text.erase(0, text.find_last_of('\n') + 1);  // npos + 1 is 0
-    if (const auto address = text.find("): "); text.starts_with("ITK ERROR") &&
-                                               address != std::string::npos)
+    if (const auto address = text.find("): ");
+        text.starts_with("ITK ERROR") && address != std::string::npos)
         text.erase(0, address + 3);
     return text;
 }
@@ -85,8 +85,8 @@ std::vector<T> narrowed(const std::vector<std::int32_t>& values) {
 
 }  // namespace
 
-ItkHeader read_itk_header(const fs::path& file, ItkFormat format) {
-    const itk::ImageIOBase::Pointer io = make_io(format);
+ItkHeader read_itk_header(const fs::path& file) {
+    const itk::ImageIOBase::Pointer io = make_io(ItkFormat::nrrd);
     try {
         io->SetFileName(file.string());
         io->ReadImageInformation();

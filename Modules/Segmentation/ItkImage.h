@@ -12,7 +12,7 @@ namespace myotet::segmentation {
 
 enum class ItkFormat { nrrd, metaimage };
 
-/// What a header means: ITK knows each format's frames, kinds and synonyms.
+/// What an NRRD header means: ITK knows the format's spaces, kinds and synonyms.
 struct ItkHeader {
     Index3 size{0, 0, 0};
     Eigen::Affine3d index_to_lps = Eigen::Affine3d::Identity();
@@ -21,7 +21,7 @@ struct ItkHeader {
 
 /// Reads a header, not the voxels. Throws InputError when ITK cannot make
 /// sense of it, or when it is not one volume of scalars in three dimensions.
-[[nodiscard]] ItkHeader read_itk_header(const std::filesystem::path& file, ItkFormat format);
+[[nodiscard]] ItkHeader read_itk_header(const std::filesystem::path& file);
 
 /// Writes voxels with the smallest integer type that holds them, compressed,
 /// and `metadata` as key and value. Throws IoError.

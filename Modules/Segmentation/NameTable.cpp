@@ -29,8 +29,7 @@ struct Row {
 };
 
 [[noreturn]] void refuse(const fs::path& file, int line, const std::string& text) {
-    throw InputError(file.string() + ", line " + std::to_string(line) + ": '" +
-                     text.substr(0, 60) +
+    throw InputError(file.string() + ", line " + std::to_string(line) + ": '" + text.substr(0, 60) +
                      "' makes no sense in a table of label names; write a whole number and a name");
 }
 
@@ -116,7 +115,8 @@ std::optional<Columns> find_columns(std::string_view head) {
 Row column_row(const fs::path& file, const Columns& columns, int line, std::string_view text) {
     const std::vector<std::string> words =
         split(text, std::string_view(&columns.separator, 1), true);
-    if (words.size() <= std::max(columns.index, columns.name)) refuse(file, line, std::string(text));
+    if (words.size() <= std::max(columns.index, columns.name))
+        refuse(file, line, std::string(text));
     const auto value = number<std::int32_t>(words[columns.index]);
     if (!value) refuse(file, line, std::string(text));
     Row row{line, *value, {}, {unquoted(words[columns.name]), {}}};
@@ -213,8 +213,8 @@ std::map<std::int32_t, LabelName> read_name_table(const fs::path& file) {
         if (row.value == 0) continue;  // background, whatever it is called
         const auto [it, is_new] = names.emplace(row.value, row.label);
         if (!is_new && it->second.name != row.label.name)
-            throw InputError(file.string() + ", line " + std::to_string(row.line) + ": names label " +
-                             std::to_string(row.value) + " '" + row.label.name +
+            throw InputError(file.string() + ", line " + std::to_string(row.line) +
+                             ": names label " + std::to_string(row.value) + " '" + row.label.name +
                              "', which is '" + it->second.name +
                              "' further up; keep one of the two lines");
     }

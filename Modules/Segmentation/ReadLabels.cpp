@@ -73,8 +73,8 @@ void add_names(LabelFile& result, const fs::path& file, const fs::path& explicit
             result.volume.names = read_name_table(*beside);
             result.names_from = *beside;
         } catch (const Error& error) {
-            result.warnings.push_back("The table beside the labels was passed over: " +
-                                      std::string(error.what()) + ".");
+            result.warnings.push_back(
+                "The table beside the labels was passed over: " + std::string(error.what()) + ".");
         }
     }
 }
@@ -90,8 +90,8 @@ void check_geometry(const Eigen::Affine3d& index_to_lps, const fs::path& file) {
                          " mm or a place that is not finite, but spacings are positive numbers; "
                          "correct the header or export the file again");
     // The ratio, so that neither tiny nor huge spacings under- or overflow.
-    const double flatness = std::abs(
-        (index_to_lps.linear() * spacing.cwiseInverse().asDiagonal()).determinant());
+    const double flatness =
+        std::abs((index_to_lps.linear() * spacing.cwiseInverse().asDiagonal()).determinant());
     if (!(flatness > kSingular))
         throw InputError(file.string() +
                          ": the header's transform is singular (its axes lie in one plane), but "
@@ -102,9 +102,8 @@ Index3 checked_size(const std::array<std::int64_t, 3>& size, const fs::path& fil
     Index3 checked{};
     for (int axis = 0; axis < 3; ++axis) {
         if (!(size[axis] >= 1 && size[axis] <= std::numeric_limits<int>::max()))
-            throw InputError(file.string() + ": the header tells of " +
-                             std::to_string(size[axis]) + " voxels along axis " +
-                             std::to_string(axis) +
+            throw InputError(file.string() + ": the header tells of " + std::to_string(size[axis]) +
+                             " voxels along axis " + std::to_string(axis) +
                              ", but there must be 1 to 2147483647; export the file again");
         checked[axis] = static_cast<int>(size[axis]);
     }
@@ -126,8 +125,8 @@ LabelFile read_labels(const fs::path& file, const fs::path& names) {
 }
 
 void write_labels(const LabelVolume& volume, const fs::path& file) {
-    const std::size_t count = static_cast<std::size_t>(volume.size[0]) * volume.size[1] *
-                              volume.size[2];
+    const std::size_t count =
+        static_cast<std::size_t>(volume.size[0]) * volume.size[1] * volume.size[2];
     MYOTET_CHECK(count == volume.values.size() && count > 0, "a label volume has all its voxels");
     check_geometry(volume.index_to_lps, file);
     const Format format = format_of(file);
@@ -135,9 +134,12 @@ void write_labels(const LabelVolume& volume, const fs::path& file) {
     if (format == Format::none || extension == ".mhd" || extension == ".nhdr")
         refuse_format(file, ".nii, .nii.gz, .nrrd or .mha");
     write_atomically(file, [&](const fs::path& temporary) {
-        if (format == Format::nifti) write_nifti(volume, temporary);
-        else if (format == Format::nrrd) write_nrrd(volume, temporary);
-        else write_metaimage(volume, temporary);
+        if (format == Format::nifti)
+            write_nifti(volume, temporary);
+        else if (format == Format::nrrd)
+            write_nrrd(volume, temporary);
+        else
+            write_metaimage(volume, temporary);
     });
 }
 

@@ -95,8 +95,9 @@ NiftiHeader read_header(ByteStream& stream) {
         nifti_2_header raw;
         return read_rest(raw, 2);
     }
-    refuse(file, "the header's size reads " + std::to_string(sizeof_hdr) +
-                     " where NIfTI has 348 or 540; this is not a NIfTI file: convert it to .nii.gz");
+    refuse(file,
+           "the header's size reads " + std::to_string(sizeof_hdr) +
+               " where NIfTI has 348 or 540; this is not a NIfTI file: convert it to .nii.gz");
 }
 
 Index3 volume_size(const NiftiHeader& h, const fs::path& file) {
@@ -157,16 +158,15 @@ Eigen::Affine3d from_matrix(const Eigen::Matrix<double, 3, 4>& m) {
 bool spans_space(const Eigen::Affine3d& a) {
     if (!a.matrix().allFinite()) return false;
     const Vec3 lengths = a.linear().colwise().norm();
-    return lengths.minCoeff() > 0 &&
-           std::abs(a.linear().determinant()) > 1e-6 * lengths.prod();
+    return lengths.minCoeff() > 0 && std::abs(a.linear().determinant()) > 1e-6 * lengths.prod();
 }
 
 std::optional<Eigen::Affine3d> qform(const NiftiHeader& h) {
     if (h.qform_code <= 0) return {};
     // Asked for a rotation alone: the library would take a spacing of zero or NaN as 1.
-    const nifti_dmat44 m = nifti_quatern_to_dmat44(
-        h.quatern[0], h.quatern[1], h.quatern[2], h.quatern[3], h.quatern[4], h.quatern[5], 1, 1,
-        1, h.pixdim[0] < 0 ? -1.0 : 1.0);
+    const nifti_dmat44 m =
+        nifti_quatern_to_dmat44(h.quatern[0], h.quatern[1], h.quatern[2], h.quatern[3],
+                                h.quatern[4], h.quatern[5], 1, 1, 1, h.pixdim[0] < 0 ? -1.0 : 1.0);
     Eigen::Affine3d a = Eigen::Affine3d::Identity();
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 4; ++c)
@@ -199,9 +199,10 @@ void compare_forms(const Eigen::Affine3d& used, const Eigen::Affine3d& other, co
         apart = std::max(apart, (used * index - other * index).norm());
     }
     if (apart > kSameWithinVoxels * used.linear().colwise().norm().minCoeff())
-        warnings.push_back(file.string() + ": the two transforms in the header, sform and qform, "
-                           "place voxels up to " + std::to_string(apart) +
-                           " mm apart; the sform was used.");
+        warnings.push_back(file.string() +
+                           ": the two transforms in the header, sform and qform, "
+                           "place voxels up to " +
+                           std::to_string(apart) + " mm apart; the sform was used.");
 }
 
 /// Index to RAS: sform first, then qform, then the spacing alone.
@@ -263,7 +264,8 @@ std::map<std::int32_t, LabelName> read_extensions(ByteStream& stream, const Nift
         if (h.swapped) nifti_swap_4bytes(1, &size);
         if (size < 8 || static_cast<std::size_t>(size) > block.size() - at) break;
         // TotalSegmentator writes code 0, Connectome Workbench 30; the text itself decides.
-        names.merge(parse_caret_labels({block.data() + at + 8, static_cast<std::size_t>(size) - 8}));
+        names.merge(
+            parse_caret_labels({block.data() + at + 8, static_cast<std::size_t>(size) - 8}));
         at += size;
     }
     return names;

@@ -49,9 +49,13 @@ double unit_in_mm(const TextHeader& header, const fs::path& file) {
 std::uint64_t data_bytes(const ItkHeader& itk) {
     std::uint64_t bytes = 8;
     switch (itk.type) {
-        case ScalarType::int8: case ScalarType::uint8: bytes = 1; break;
-        case ScalarType::int16: case ScalarType::uint16: bytes = 2; break;
-        case ScalarType::int32: case ScalarType::uint32: case ScalarType::float32: bytes = 4; break;
+        case ScalarType::int8:
+        case ScalarType::uint8: bytes = 1; break;
+        case ScalarType::int16:
+        case ScalarType::uint16: bytes = 2; break;
+        case ScalarType::int32:
+        case ScalarType::uint32:
+        case ScalarType::float32: bytes = 4; break;
         default: break;
     }
     for (const int n : itk.size) bytes *= static_cast<std::uint64_t>(n);
@@ -141,7 +145,7 @@ LabelFile read_nrrd(const fs::path& file) {
     const TextHeader header = read_nrrd_header(file);
     check_spacing_fields(header, file);
     const Storage storage = find_storage(header, file);
-    const ItkHeader itk = read_itk_header(file, ItkFormat::nrrd);
+    const ItkHeader itk = read_itk_header(file);
     LabelFile result;
     result.volume.size = itk.size;
     result.volume.index_to_lps = itk.index_to_lps;

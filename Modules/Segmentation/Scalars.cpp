@@ -144,8 +144,10 @@ void read_ascii(ByteStream& stream, std::size_t count, Sink& sink) {
         for (std::size_t n = 0; n < got; ++n) {
             const char c = chunk[n];
             const bool space = c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ',';
-            if (space) finish_word();
-            else if (word.size() <= kLongestWord) word += c;
+            if (space)
+                finish_word();
+            else if (word.size() <= kLongestWord)
+                word += c;
         }
         if (got == 0) {
             finish_word();
@@ -156,9 +158,13 @@ void read_ascii(ByteStream& stream, std::size_t count, Sink& sink) {
 
 std::size_t size_of(ScalarType type) {
     switch (type) {
-        case ScalarType::int8: case ScalarType::uint8: return 1;
-        case ScalarType::int16: case ScalarType::uint16: return 2;
-        case ScalarType::int32: case ScalarType::uint32: case ScalarType::float32: return 4;
+        case ScalarType::int8:
+        case ScalarType::uint8: return 1;
+        case ScalarType::int16:
+        case ScalarType::uint16: return 2;
+        case ScalarType::int32:
+        case ScalarType::uint32:
+        case ScalarType::float32: return 4;
         default: return 8;
     }
 }
@@ -203,8 +209,9 @@ std::vector<std::int32_t> read_scalars(ByteStream& stream, const ScalarLayout& l
         sink.values.reserve(count);
         read_into(sink, stream, layout, count);
     } catch (const std::bad_alloc&) {
-        throw ResourceError(stream.file().string() + ": " + std::to_string(count) +
-                            " voxels do not fit in memory; crop the volume or use a larger machine");
+        throw ResourceError(
+            stream.file().string() + ": " + std::to_string(count) +
+            " voxels do not fit in memory; crop the volume or use a larger machine");
     } catch (const std::length_error&) {
         throw ResourceError(stream.file().string() + ": " + std::to_string(count) +
                             " voxels are more than a program can hold; crop the volume");

@@ -11,7 +11,16 @@ namespace myotet::segmentation {
 
 /// Types in which files store label values.
 enum class ScalarType {
-    int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64
+    int8,
+    uint8,
+    int16,
+    uint16,
+    int32,
+    uint32,
+    int64,
+    uint64,
+    float32,
+    float64
 };
 
 /// How a volume's values lie in a file.
@@ -29,8 +38,7 @@ struct ScalarLayout {
 /// negative values, values past 2^31 - 1 and values that are not whole
 /// numbers, ResourceError when they do not fit in memory.
 /// Memory: 4 bytes a voxel, committed only as the data arrive.
-[[nodiscard]] std::vector<std::int32_t> read_scalars(ByteStream& stream,
-                                                     const ScalarLayout& layout,
+[[nodiscard]] std::vector<std::int32_t> read_scalars(ByteStream& stream, const ScalarLayout& layout,
                                                      std::vector<std::string>& warnings);
 
 }  // namespace myotet::segmentation

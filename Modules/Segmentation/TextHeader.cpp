@@ -69,13 +69,13 @@ std::string TextHeader::get(const std::string& key) const {
     return it == fields.end() ? std::string() : it->second;
 }
 
-std::int64_t whole_number(const std::string& text, const std::string& field,
-                          const fs::path& file) {
+std::int64_t whole_number(const std::string& text, const std::string& field, const fs::path& file) {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
         throw InputError(file.string() + ": the header's " + field + " reads '" +
-                         text.substr(0, 40) + "' but must be a whole number; export the file again");
+                         text.substr(0, 40) +
+                         "' but must be a whole number; export the file again");
     return value;
 }
 
@@ -95,8 +95,10 @@ TextHeader read_nrrd_header(const fs::path& file) {
         const std::string_view all = line;
         const std::string key(trimmed(all.substr(0, colon)));
         const std::string value(trimmed(all.substr(colon + (metadata ? 2 : 1))));
-        if (metadata) header.metadata[key] = value;
-        else header.fields[lower_case(key)] = value;
+        if (metadata)
+            header.metadata[key] = value;
+        else
+            header.fields[lower_case(key)] = value;
     }
     header.data_offset = lines.offset();
     return header;
@@ -129,8 +131,8 @@ fs::path data_file_beside(const fs::path& header, const std::string& name) {
     if (lower_case(name).starts_with("list") || name.find('%') != std::string::npos)
         throw InputError(header.string() + ": its voxels lie in several files ('" + name +
                          "'), which is not supported; save the volume as one file");
-    const fs::path data = fs::path(name).is_absolute() ? fs::path(name)
-                                                       : header.parent_path() / name;
+    const fs::path data =
+        fs::path(name).is_absolute() ? fs::path(name) : header.parent_path() / name;
     std::error_code ignored;
     if (!fs::is_regular_file(data, ignored))
         throw IoError(header.string() + ": its voxels should lie in " + data.string() +

@@ -89,8 +89,9 @@ nifti_1_header make_header(const LabelVolume& volume, std::int32_t largest) {
     h.sizeof_hdr = kHeaderBytes;
     h.dim[0] = 3;
     for (int n = 1; n < 8; ++n) h.dim[n] = n <= 3 ? static_cast<short>(volume.size[n - 1]) : 1;
-    h.datatype = largest <= 255 ? NIFTI_TYPE_UINT8
-                                : largest <= 32767 ? NIFTI_TYPE_INT16 : NIFTI_TYPE_INT32;
+    h.datatype = largest <= 255     ? NIFTI_TYPE_UINT8
+                 : largest <= 32767 ? NIFTI_TYPE_INT16
+                                    : NIFTI_TYPE_INT32;
     h.bitpix = largest <= 255 ? 8 : largest <= 32767 ? 16 : 32;
     h.xyzt_units = NIFTI_UNITS_MM;
     h.intent_code = NIFTI_INTENT_LABEL;
@@ -138,9 +139,12 @@ void write_nifti(const LabelVolume& volume, const fs::path& file) {
         out.write(extension_head, sizeof extension_head);
         out.write(extension.data(), extension.size());
     }
-    if (largest <= 255) write_values<std::uint8_t>(out, volume.values);
-    else if (largest <= 32767) write_values<std::int16_t>(out, volume.values);
-    else write_values<std::int32_t>(out, volume.values);
+    if (largest <= 255)
+        write_values<std::uint8_t>(out, volume.values);
+    else if (largest <= 32767)
+        write_values<std::int16_t>(out, volume.values);
+    else
+        write_values<std::int32_t>(out, volume.values);
     out.close();
 }
 

@@ -151,14 +151,14 @@ Scene arm_scene() {
     std::vector<Tissue>& tissues = scene.tissues;
     tissues.push_back(make_tissue(1, {"humerus", kBone}, 191600, in_humerus));
     tissues.push_back(make_tissue(2, {"radius_ulna", kBone}, 48963, in_forearm));
-    tissues.push_back(make_tissue(11, {"biceps_tendon_proximal", kTendon}, 3067.3,
-                                  biceps_tendon_proximal()));
-    tissues.push_back(make_tissue(12, {"biceps_tendon_distal", kTendon}, 7636.6,
-                                  biceps_tendon_distal()));
-    tissues.push_back(make_tissue(21, {"triceps_tendon_proximal", kTendon}, 3176.5,
-                                  triceps_tendon_proximal()));
-    tissues.push_back(make_tissue(22, {"triceps_tendon_distal", kTendon}, 8505.7,
-                                  triceps_tendon_distal()));
+    tissues.push_back(
+        make_tissue(11, {"biceps_tendon_proximal", kTendon}, 3067.3, biceps_tendon_proximal()));
+    tissues.push_back(
+        make_tissue(12, {"biceps_tendon_distal", kTendon}, 7636.6, biceps_tendon_distal()));
+    tissues.push_back(
+        make_tissue(21, {"triceps_tendon_proximal", kTendon}, 3176.5, triceps_tendon_proximal()));
+    tissues.push_back(
+        make_tissue(22, {"triceps_tendon_distal", kTendon}, 8505.7, triceps_tendon_distal()));
     tissues.push_back(make_tissue(20, {"triceps", kTriceps}, 246689, triceps()));
     tissues.push_back(make_tissue(10, {"biceps", kBiceps}, 202615, biceps()));
     return scene;

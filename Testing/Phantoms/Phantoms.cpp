@@ -35,21 +35,19 @@ Scene one_tissue(const Vec3& half, Tissue tissue) {
 
 Scene sphere_scene() {
     constexpr double kRadius = 20;
-    return one_tissue(Vec3::Constant(kRadius),
-                      from_distance(1, {"sphere", kRed},
-                                    4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius,
-                                    [](const Vec3& p) {
-                                        return sphere_distance(p, Vec3::Zero(), kRadius);
-                                    }));
+    return one_tissue(
+        Vec3::Constant(kRadius),
+        from_distance(1, {"sphere", kRed},
+                      4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius,
+                      [](const Vec3& p) { return sphere_distance(p, Vec3::Zero(), kRadius); }));
 }
 
 Scene torus_scene() {
     constexpr double kRing = 20, kTube = 8, kAll = kRing + kTube;
-    return one_tissue(
-        Vec3(kAll, kAll, kTube),
-        from_distance(1, {"torus", kRed},
-                      2 * std::numbers::pi * std::numbers::pi * kRing * kTube * kTube,
-                      [](const Vec3& p) { return torus_distance(p, kRing, kTube); }));
+    return one_tissue(Vec3(kAll, kAll, kTube),
+                      from_distance(1, {"torus", kRed},
+                                    2 * std::numbers::pi * std::numbers::pi * kRing * kTube * kTube,
+                                    [](const Vec3& p) { return torus_distance(p, kRing, kTube); }));
 }
 
 Scene blocks_scene() {
@@ -60,32 +58,30 @@ Scene blocks_scene() {
     scene.box = large;
     scene.box.include(small.min);
     scene.box.include(small.max);
-    scene.tissues.push_back(from_distance(1, {"large_block", kRed}, large.extent().prod(),
-                                          [large](const Vec3& p) { return box_distance(p, large); }));
-    scene.tissues.push_back(from_distance(2, {"small_block", kBlue}, small.extent().prod(),
-                                          [small](const Vec3& p) { return box_distance(p, small); }));
+    scene.tissues.push_back(
+        from_distance(1, {"large_block", kRed}, large.extent().prod(),
+                      [large](const Vec3& p) { return box_distance(p, large); }));
+    scene.tissues.push_back(
+        from_distance(2, {"small_block", kBlue}, small.extent().prod(),
+                      [small](const Vec3& p) { return box_distance(p, small); }));
     return scene;
 }
 
 Scene ellipsoid_scene() {
     const Vec3 half(18, 14, 40);
-    return one_tissue(half, from_distance(1, {"ellipsoid", kRed},
-                                          4.0 / 3.0 * std::numbers::pi * half.prod(),
-                                          [half](const Vec3& p) {
-                                              return ellipsoid_distance(p, half);
-                                          }));
+    return one_tissue(
+        half, from_distance(1, {"ellipsoid", kRed}, 4.0 / 3.0 * std::numbers::pi * half.prod(),
+                            [half](const Vec3& p) { return ellipsoid_distance(p, half); }));
 }
 
 Scene shell_scene() {
     constexpr double kOuter = 20, kInner = 13;
     return one_tissue(
         Vec3::Constant(kOuter),
-        from_distance(1, {"shell", kRed},
-                      4.0 / 3.0 * std::numbers::pi *
-                          (kOuter * kOuter * kOuter - kInner * kInner * kInner),
-                      [](const Vec3& p) {
-                          return std::max(p.norm() - kOuter, kInner - p.norm());
-                      }));
+        from_distance(
+            1, {"shell", kRed},
+            4.0 / 3.0 * std::numbers::pi * (kOuter * kOuter * kOuter - kInner * kInner * kInner),
+            [](const Vec3& p) { return std::max(p.norm() - kOuter, kInner - p.norm()); }));
 }
 
 struct Entry {
@@ -107,7 +103,8 @@ const Entry& find_entry(std::string_view name) {
     for (const Entry& entry : kPhantoms)
         if (entry.name == name) return entry;
     std::string known;
-    for (const Entry& entry : kPhantoms) known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    for (const Entry& entry : kPhantoms)
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
     throw InputError("there is no phantom '" + std::string(name) + "'; choose one of " + known);
 }
 
@@ -128,8 +125,9 @@ LabelVolume empty_volume(const Scene& scene, const PhantomOptions& options, cons
         const double inside = std::ceil(box.extent()[a] / spacing[a] - 1e-9);
         count *= inside + 2 * kMargin;
         if (!(count <= kMostVoxels))
-            throw ResourceError("a phantom of this spacing would have more than 10^9 voxels; "
-                                "choose a coarser one");
+            throw ResourceError(
+                "a phantom of this spacing would have more than 10^9 voxels; "
+                "choose a coarser one");
         volume.size[a] = static_cast<int>(inside) + 2 * kMargin;
         first[a] = box.min[a] + (0.5 - kMargin) * spacing[a];
     }

@@ -17,8 +17,8 @@ using Distance = std::function<double(const Vec3&)>;
 /// A label volume of which the truth is known.
 struct Phantom {
     LabelVolume volume;
-    std::map<std::int32_t, double> true_volume;   ///< mm^3, of every label
-    std::map<std::int32_t, Distance> distance;    ///< of every label, but for `arm`: none
+    std::map<std::int32_t, double> true_volume;  ///< mm^3, of every label
+    std::map<std::int32_t, Distance> distance;   ///< of every label, but for `arm`: none
 };
 
 /// How a phantom is scanned. The body stays where it is in the patient; the

@@ -62,8 +62,7 @@ Loft::Loft(std::vector<Station> stations, double cap, double exponent)
         for (std::size_t n = 1; n < last; ++n) {
             // Harmonic mean of the secants; zero at an extremum, so none is added.
             const double product = secant[n - 1] * secant[n];
-            slopes_[n].*width =
-                product > 0 ? 2 * product / (secant[n - 1] + secant[n]) : 0.0;
+            slopes_[n].*width = product > 0 ? 2 * product / (secant[n - 1] + secant[n]) : 0.0;
         }
     }
     // Monotone pieces stay between their stations' values, each width for itself.
@@ -99,8 +98,8 @@ bool Loft::contains(const Vec3& point) const {
     if (!((point.array() >= box_.min.array()).all() && (point.array() <= box_.max.array()).all()))
         return false;
     const Station s = at(point.z());
-    const double above = std::max({0.0, point.z() - stations_.back().z,
-                                   stations_.front().z - point.z()});
+    const double above =
+        std::max({0.0, point.z() - stations_.back().z, stations_.front().z - point.z()});
     double scale = 1;  // of the cross-section, in a cap
     if (above > 0) {
         if (above >= cap_) return false;

@@ -70,8 +70,8 @@ TEST(Phantoms, HaveTheirVolumeAndOneComponentALabel) {
             const double truth = phantom.true_volume.at(label);
             EXPECT_NEAR(m.volume / truth, 1, truth < 10000 ? kTendonVolume : kVolume)
                 << name << " " << label;
-            const Components parts = label_components(phantom.volume, label, {0, 0, 0},
-                                                      last_of(phantom.volume));
+            const Components parts =
+                label_components(phantom.volume, label, {0, 0, 0}, last_of(phantom.volume));
             EXPECT_EQ(parts.components.size(), 1u) << name << " " << label;
             EXPECT_TRUE(phantom.volume.names.contains(label));
         }
@@ -85,8 +85,8 @@ TEST(Phantoms, LeaveTheBorderEmpty) {
         for (int k = 0; k <= last[2]; ++k)
             for (int j = 0; j <= last[1]; ++j)
                 for (int i = 0; i <= last[0]; ++i) {
-                    const bool inside = i > 0 && j > 0 && k > 0 && i < last[0] && j < last[1] &&
-                                        k < last[2];
+                    const bool inside =
+                        i > 0 && j > 0 && k > 0 && i < last[0] && j < last[1] && k < last[2];
                     ASSERT_TRUE(inside || volume.values[volume.offset(i, j, k)] == 0) << name;
                 }
     }
@@ -171,8 +171,8 @@ TEST(Arm, MusclesTouchBoneTendonsAndEachOther) {
     for (const auto& [label, name] : volume.names) value[name.name] = label;
     const auto touching = contacts(volume);
     const auto touch = [&](const char* a, const char* b) {
-        return touching.contains({std::min(value.at(a), value.at(b)),
-                                  std::max(value.at(a), value.at(b))});
+        return touching.contains(
+            {std::min(value.at(a), value.at(b)), std::max(value.at(a), value.at(b))});
     };
     EXPECT_TRUE(touch("biceps", "humerus"));
     EXPECT_TRUE(touch("triceps", "humerus"));

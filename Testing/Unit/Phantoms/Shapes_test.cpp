@@ -46,8 +46,7 @@ void expect_signed_distance(const Field& field, double reach) {
 TEST(Shapes, SphereTorusBoxAndEllipsoidAreSignedDistances) {
     const Vec3 half(18, 14, 40);
     const Box box{Vec3(-3, -4, -5), Vec3(3, 4, 5)};
-    expect_signed_distance(
-        [](const Vec3& p) { return sphere_distance(p, Vec3(1, 2, 3), 9); }, 20);
+    expect_signed_distance([](const Vec3& p) { return sphere_distance(p, Vec3(1, 2, 3), 9); }, 20);
     expect_signed_distance([](const Vec3& p) { return torus_distance(p, 20, 8); }, 30);
     expect_signed_distance([&](const Vec3& p) { return box_distance(p, box); }, 8);
     expect_signed_distance([&](const Vec3& p) { return ellipsoid_distance(p, half); }, 45);
@@ -55,8 +54,8 @@ TEST(Shapes, SphereTorusBoxAndEllipsoidAreSignedDistances) {
 
 TEST(Shapes, EllipsoidOfEqualAxesIsASphere) {
     for (const Vec3& p : {Vec3(1, 2, 3), Vec3(20, 0, 0), Vec3(-4, 30, 7)})
-        EXPECT_NEAR(ellipsoid_distance(p, Vec3::Constant(10)),
-                    sphere_distance(p, Vec3::Zero(), 10), kRounding);
+        EXPECT_NEAR(ellipsoid_distance(p, Vec3::Constant(10)), sphere_distance(p, Vec3::Zero(), 10),
+                    kRounding);
 }
 
 TEST(Shapes, EllipsoidIsRightOnItsAxesAndAtItsCentre) {
@@ -79,7 +78,8 @@ TEST(Shapes, LoftOfEqualStationsIsACylinderWithRoundEnds) {
 }
 
 TEST(Shapes, LoftPassesThroughItsStationsAndStaysInItsBox) {
-    const Loft loft({{0, 0, 0, 3, 3}, {4, 2, 1, 8, 5}, {9, 2, -3, 8, 6}, {15, -1, 0, 2, 2}}, 2, 2.5);
+    const Loft loft({{0, 0, 0, 3, 3}, {4, 2, 1, 8, 5}, {9, 2, -3, 8, 6}, {15, -1, 0, 2, 2}}, 2,
+                    2.5);
     EXPECT_TRUE(loft.contains(Vec3(2 + 7.99, 1, 4)));
     EXPECT_FALSE(loft.contains(Vec3(2 + 8.01, 1, 4)));
     EXPECT_FALSE(loft.contains(Vec3(2 + 8.01, -1, 6.5)));  // monotone: no wider in between

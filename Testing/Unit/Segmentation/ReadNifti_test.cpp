@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Core/Errors.h"
+#include "Samples.h"
+#include "Segmentation/ReadLabels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace myotet::segmentation {
+namespace {
+
+using samples::nifti_bytes;
+using samples::with;
+using ::testing::HasSubstr;
+
+// Offsets of fields in the NIfTI-1 header.
+constexpr std::size_t kDim = 40, kDatatype = 70, kPixdim = 76, kVoxOffset = 108, kSlope = 112,
+                      kInter = 116, kUnits = 123, kQformCode = 252, kSformCode = 254,
+                      kQuatern = 256, kSrow = 280, kMagic = 344;
+
+class Nifti : public ::testing::Test {
+protected:
+    LabelFile read(const std::string& bytes) {
+        return read_labels(samples::write_bytes(folder.path() / "scan.nii", bytes));
+    }
+    void expect_refused(const std::string& bytes, const char* reason) {
+        try {
+            (void)read(bytes);
+            ADD_FAILURE() << "read, but: " << reason;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("scan.nii"));
+            EXPECT_THAT(error.what(), HasSubstr(reason));
+        }
+    }
+    ::myotet::testing::TemporaryFolder folder;
+};
+
+TEST_F(Nifti, PutsVoxelsInLps) {
+    const LabelFile found = read(nifti_bytes());
+    EXPECT_TRUE(found.warnings.empty());
+    EXPECT_EQ(found.volume.values, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+    // RAS (2 i + 10, 3 j + 20, 4 k + 30).
+    EXPECT_EQ(found.volume.index_to_lps * Vec3(1, 1, 1), Vec3(-12, -23, 34));
+    EXPECT_EQ(found.volume.spacing(), Vec3(2, 3, 4));
+}
+
+TEST_F(Nifti, KeepsAShearedTransform) {
+    const LabelFile found = read(with(nifti_bytes(), kSrow + 4, 0.5F));
+    EXPECT_EQ(found.volume.index_to_lps * Vec3(0, 1, 0), Vec3(-10.5, -23, 30));
+}
+
+TEST_F(Nifti, UsesTheQformWhenThereIsNoSform) {
+    // A turn by 90 degrees about z: quaternion (cos 45, 0, 0, sin 45).
+    std::string bytes =
+        with(with(nifti_bytes(), kSformCode, std::int16_t{0}), kQformCode, std::int16_t{1});
+    const float quatern[6] = {0, 0, std::sqrt(0.5F), 1, 2, 3};
+    const float pixdim[4] = {-1, 2, 3, 4};  // the sign mirrors k
+    for (int n = 0; n < 6; ++n) bytes = with(bytes, kQuatern + 4 * n, quatern[n]);
+    for (int n = 0; n < 4; ++n) bytes = with(bytes, kPixdim + 4 * n, pixdim[n]);
+    const Vec3 lps = read(bytes).volume.index_to_lps * Vec3(1, 1, 1);
+    constexpr double kFloat = 1e-5;  // the quaternion has 32 bit
+    EXPECT_LT((lps - Vec3(-(1 - 3), -(2 + 2), 3 - 4)).norm(), kFloat);
+}
+
+TEST_F(Nifti, WarnsWhenThePlaceIsAmbiguous) {
+    const std::string none = with(nifti_bytes(), kSformCode, std::int16_t{0});
+    const LabelFile found = read(none);
+    EXPECT_EQ(found.volume.spacing(), Vec3(1, 1, 1));
+    ASSERT_EQ(found.warnings.size(), 1u);
+    EXPECT_THAT(found.warnings[0], HasSubstr("nothing of its place"));
+    // A qform without rotation, at the origin: elsewhere than the sform.
+    const LabelFile both = read(with(nifti_bytes(), kQformCode, std::int16_t{1}));
+    ASSERT_EQ(both.warnings.size(), 1u);
+    EXPECT_THAT(both.warnings[0], HasSubstr("the sform was used"));
+    EXPECT_EQ(both.volume.spacing(), Vec3(2, 3, 4));
+}
+
+TEST_F(Nifti, TakesTheUnitFromTheHeader) {
+    std::string bytes = nifti_bytes();
+    bytes[kUnits] = 1;
+    EXPECT_EQ(read(bytes).volume.spacing(), Vec3(2000, 3000, 4000));
+    bytes[kUnits] = 0;
+    EXPECT_THAT(read(bytes).warnings,
+                ::testing::ElementsAre(HasSubstr("millimetres were assumed")));
+}
+
+TEST_F(Nifti, RefusesHeadersThatLie) {
+    const std::string good = nifti_bytes();
+    expect_refused(with(good, 0, std::int32_t{1234}), "348 or 540");
+    expect_refused(with(good, kMagic, 'x'), "mark");
+    expect_refused(with(good, kMagic + 1, 'i'), "pair of files");
+    expect_refused(with(good, kDim, std::int16_t{9}), "9 dimensions");
+    expect_refused(with(good, kDim, std::int16_t{2}), "2 dimensions");
+    expect_refused(with(good, kDim + 2, std::int16_t{-2}), "-2 voxels along axis 0");
+    expect_refused(with(good, kDim + 4, std::int16_t{0}), "0 voxels along axis 1");
+    expect_refused(with(good, kDim + 6, std::int16_t{32767}), "too short to hold");
+    expect_refused(with(with(good, kDim, std::int16_t{4}), kDim + 8, std::int16_t{2}), "2 volumes");
+    expect_refused(with(good, kVoxOffset, std::numeric_limits<float>::quiet_NaN()), "byte nan");
+    expect_refused(with(good, kVoxOffset, 17.0F), "byte 17");
+    expect_refused(with(good, kVoxOffset, 1e9F), "cut short");
+}
+
+TEST_F(Nifti, RefusesWhatHoldsNoLabels) {
+    const std::string good = nifti_bytes();
+    expect_refused(with(good, kDatatype, std::int16_t{77}), "datatype 77");
+    expect_refused(with(good, kDatatype, std::int16_t{128}), "colours");
+    expect_refused(with(good, kDatatype, std::int16_t{32}), "datatype 32");  // complex
+    expect_refused(with(good, kSlope, 0.5F), "scales values by 0.5");
+    expect_refused(with(with(good, kSlope, 1.0F), kInter, 2.0F), "adds 2");
+    EXPECT_NO_THROW((void)read(with(with(good, kSlope, 0.0F), kInter, 2.0F)));
+    EXPECT_NO_THROW((void)read(with(good, kSlope, std::numeric_limits<float>::quiet_NaN())));
+    std::string negative = with(good, kDatatype, std::int16_t{256});
+    negative[355] = -5;
+    expect_refused(negative, "voxel (1, 1, 0) has the value -5");
+}
+
+TEST_F(Nifti, RefusesASpacingThatIsNone) {
+    const std::string good = nifti_bytes();
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                infinite = std::numeric_limits<float>::infinity();
+    expect_refused(with(good, kSrow, nan), "spacing of");
+    expect_refused(with(good, kSrow + 12, infinite), "not finite");
+    expect_refused(with(good, kSrow, 0.0F), "spacing of 0 x 3 x 4");
+    expect_refused(with(with(good, kSrow, 0.0F), kSrow + 16, 2.0F), "singular");
+    const std::string unplaced = with(good, kSformCode, std::int16_t{0});
+    for (const float bad : {0.0F, nan, infinite}) {
+        expect_refused(with(unplaced, kPixdim + 8, bad), "spacing of");
+        expect_refused(with(with(unplaced, kQformCode, std::int16_t{1}), kPixdim + 8, bad),
+                       "spacing of");
+    }
+}
+
+TEST_F(Nifti, ReadsBothByteOrders) {
+    std::string bytes = nifti_bytes();
+    const auto swap = [&](std::size_t at, std::size_t size, std::size_t count) {
+        for (std::size_t n = 0; n < count; ++n)
+            std::reverse(bytes.begin() + at + n * size, bytes.begin() + at + (n + 1) * size);
+    };
+    swap(0, 4, 1);
+    swap(kDim, 2, 8);
+    swap(kDatatype, 2, 2);
+    swap(kPixdim, 4, 8);
+    swap(kVoxOffset, 4, 3);
+    swap(kQformCode, 2, 2);
+    swap(kQuatern, 4, 18);
+    const LabelFile found = read(bytes);
+    EXPECT_EQ(found.volume.spacing(), Vec3(2, 3, 4));
+    EXPECT_EQ(found.volume.values.back(), 7);
+}
+
+TEST_F(Nifti, SkipsExtensionsThatAreNotNames) {
+    // An extension of 32 bytes whose size field lies.
+    for (const std::int32_t claimed : {32, 0, -1, 7, 1 << 30}) {
+        std::string bytes = with(nifti_bytes(), kVoxOffset, 384.0F);
+        bytes.insert(352, 32, '<');
+        bytes = with(with(bytes, 348, char{1}), 352, claimed);
+        EXPECT_EQ(read(bytes).volume.values.back(), 7);
+        EXPECT_TRUE(read(bytes).volume.names.empty());
+    }
+}
+
+TEST_F(Nifti, TellsOfBytesThatTheHeaderDoesNotKnow) {
+    EXPECT_THAT(read(nifti_bytes() + "abc").warnings,
+                ::testing::ElementsAre(HasSubstr("3 bytes more")));
+}
+
+}  // namespace
+}  // namespace myotet::segmentation

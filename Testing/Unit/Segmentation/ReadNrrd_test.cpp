@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Core/Errors.h"
+#include "Samples.h"
+#include "Segmentation/ReadLabels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace myotet::segmentation {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kData{"\0\1\2\3\4\5\6\7", 8};
+const std::string kPlace =
+    "space: left-posterior-superior\nspace directions: (0,2,0) (3,0,0) (0,0,4)\n"
+    "space origin: (10,20,30)\n";
+
+std::string header(const std::string& more, const std::string& encoding = "raw",
+                   const std::string& sizes = "2 2 2") {
+    return "NRRD0004\n# made by a test\ntype: unsigned char\ndimension: 3\nsizes: " + sizes +
+           "\nencoding: " + encoding + "\n" + more;
+}
+
+class Nrrd : public ::testing::Test {
+protected:
+    LabelFile read(const std::string& bytes) {
+        return read_labels(samples::write_bytes(folder.path() / "scan.nrrd", bytes));
+    }
+    void expect_refused(const std::string& bytes, const char* reason) {
+        try {
+            (void)read(bytes);
+            ADD_FAILURE() << "read, but: " << reason;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("scan.nrrd"));
+            EXPECT_THAT(error.what(), HasSubstr(reason));
+        }
+    }
+    ::myotet::testing::TemporaryFolder folder;
+};
+
+TEST_F(Nrrd, PutsVoxelsInLpsWhateverItsOwnSpace) {
+    EXPECT_EQ(read(header(kPlace + "\n") + kData).volume.index_to_lps * Vec3(1, 1, 1),
+              Vec3(13, 22, 34));
+    std::string ras = kPlace;
+    ras.replace(ras.find("left-posterior-superior"), 23, "right-anterior-superior");
+    EXPECT_EQ(read(header(ras + "\n") + kData).volume.index_to_lps * Vec3(1, 1, 1),
+              Vec3(-13, -22, 34));
+}
+
+TEST_F(Nrrd, KeepsAShearedTransform) {
+    const LabelFile found = read(header("space: LPS\nspace directions: (2,1,0) (0,3,0) (0,1,4)\n"
+                                        "space origin: (0,0,0)\n\n") +
+                                 kData);
+    EXPECT_LT((found.volume.index_to_lps * Vec3(1, 1, 1) - Vec3(2, 5, 4)).norm(), 1e-12);
+}
+
+TEST_F(Nrrd, ReadsTextAndDetachedData) {
+    EXPECT_EQ(read(header(kPlace + "\n", "ascii") + "0 1 2 3\n4 5 6 7\n").volume.values.back(), 7);
+    samples::write_bytes(folder.path() / "data.raw", "skip\nxy" + kData);
+    const auto detached =
+        samples::write_bytes(folder.path() / "scan.nhdr",
+                             header(kPlace + "line skip: 1\nbyte skip: 2\ndata file: data.raw\n"));
+    EXPECT_EQ(read_labels(detached).volume.values.back(), 7);
+    samples::write_bytes(detached, header(kPlace + "byte skip: -1\ndata file: data.raw\n"));
+    EXPECT_EQ(read_labels(detached).volume.values.back(), 7);
+}
+
+TEST_F(Nrrd, ReadsSegmentNamesOfSlicer) {
+    const LabelFile found =
+        read(header(kPlace + "Segment0_ID:=Segment_1\nSegment0_LabelValue:=3\n"
+                             "Segment0_Name:=cervical column\nSegment0_Color:=1 0.5 0\n"
+                             "Segment1_ID:=ribs\nSegment1_LabelValue:=5\n\n") +
+             kData);
+    EXPECT_EQ(found.volume.name_of(3), "cervical column");
+    EXPECT_EQ(found.volume.names.at(3).colour, (std::array<double, 3>{1, 0.5, 0}));
+    EXPECT_EQ(found.volume.name_of(5), "ribs");
+    EXPECT_EQ(found.names_from, folder.path() / "scan.nrrd");
+}
+
+TEST_F(Nrrd, TakesTheUnitFromTheHeader) {
+    const std::string cm = kPlace + "space units: \"cm\" \"cm\" \"cm\"\n\n";
+    EXPECT_EQ(read(header(cm) + kData).volume.spacing(), Vec3(20, 30, 40));
+    expect_refused(header(kPlace + "space units: \"inch\" \"inch\" \"inch\"\n\n") + kData, "inch");
+}
+
+TEST_F(Nrrd, WarnsWhenThePlaceIsUnknown) {
+    const LabelFile found = read(header("\n") + kData);
+    EXPECT_EQ(found.volume.spacing(), Vec3(1, 1, 1));
+    EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("1 mm was assumed")));
+    const LabelFile spaced = read(header("spacings: 2 3 4\n\n") + kData);
+    EXPECT_EQ(spaced.volume.spacing(), Vec3(2, 3, 4));
+    EXPECT_THAT(spaced.warnings, ::testing::ElementsAre(HasSubstr("nothing of its place")));
+}
+
+TEST_F(Nrrd, RefusesWhatItCannotRead) {
+    expect_refused("NRRX0004\n", "does not start with 'NRRD'");
+    expect_refused(header(kPlace + "\n", "bzip2") + kData, "bzip2");
+    expect_refused(header(kPlace + "data file: LIST\na.raw\n"), "several files");
+    expect_refused(header(kPlace + "data file: slice%03d.raw 1 9 1\n"), "several files");
+    expect_refused(header(kPlace + "data file: absent.raw\n"), "does not exist");
+    expect_refused(header(kPlace + "\n", "raw", "400 400 400") + kData, "too short to hold");
+    expect_refused(header(kPlace + "\n", "raw", "2 -2 2") + kData, "header");
+    expect_refused(header(kPlace + "\n", "ascii") + "0 1 2 x 4 5 6 7", "'x'");
+    expect_refused(header(kPlace + "\n", "ascii") + "0 1 2", "cut short");
+}
+
+TEST_F(Nrrd, RefusesASpacingThatIsNone) {
+    for (const char* spacings : {"nan 1 1", "1 inf 1", "0 1 1", "1 -2 1"})
+        expect_refused(header("spacings: " + std::string(spacings) + "\n\n") + kData, "header");
+    expect_refused(header("space: LPS\nspace directions: (1,0,0) (1,0,0) (0,0,1)\n\n") + kData,
+                   "singular");
+    expect_refused(header("space: LPS\nspace directions: (nan,0,0) (0,1,0) (0,0,1)\n\n") + kData,
+                   "finite");
+}
+
+TEST_F(Nrrd, RefusesLayers) {
+    expect_refused(
+        "NRRD0004\ntype: unsigned char\ndimension: 4\nsizes: 2 2 2 2\nencoding: raw\n"
+        "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+        "kinds: list domain domain domain\nspace origin: (0,0,0)\n\n" +
+            kData + kData,
+        "layers");
+}
+
+}  // namespace
+}  // namespace myotet::segmentation
