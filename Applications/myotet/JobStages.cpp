@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "LevelSet/FromSurface.h"
 #include "MeshFiles/MeshFiles.h"
@@ -32,12 +33,16 @@ LabelLevelSets level_sets_of_surface(const Scan& scan, const meshing::Options& s
     LabelLevelSets sets;
     sets.spacing = level_set_spacing(sizes, scan);
     sets.smooth = std::max(0.0, options.smooth);
-    const Tissue& tissue = scan.tissues.front();
-    sets.regions.push_back(
-        {.label = tissue.label,
-         .volume_labels = tissue.volume,
-         .phi = levelset::from_surface(
-             *scan.surface, {.spacing = sets.spacing, .smooth = sets.smooth}, progress)});
+    levelset::Region region;
+    region.label = scan.tissues.front().label;
+    region.volume_labels = scan.tissues.front().volume;
+    try {
+        region.phi = levelset::from_surface(
+            *scan.surface, {.spacing = sets.spacing, .smooth = sets.smooth}, progress);
+    } catch (const InputError& error) {  // which does not know the file
+        throw InputError(options.input.string() + ": " + error.what());
+    }
+    sets.regions.push_back(std::move(region));
     return sets;
 }
 

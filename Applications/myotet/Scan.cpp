@@ -2,6 +2,7 @@
 #include "Scan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -118,6 +119,12 @@ Scan read_surface_scan(const JobOptions& options) {
     scan.shells = count_outward_shells(*scan.surface);
     scan.tissues = {{1, options.input.stem().string(), 0, std::abs(volume(*scan.surface)),
                      surface_area(*scan.surface)}};
+    // A ball has 0.09 of this; far below a paper's thickness nothing is solid.
+    constexpr double kFlat = 1e-9;
+    const Tissue& tissue = scan.tissues.front();
+    if (!(tissue.volume > kFlat * std::pow(tissue.area, 1.5)))
+        throw InputError(options.input.string() +
+                         ": encloses no volume, it is open or flat; a closed surface is needed");
     return scan;
 }
 

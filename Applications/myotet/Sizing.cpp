@@ -58,7 +58,7 @@ double forecast_tets(const meshing::Options& sizes, const Scan& scan) {
 /// the forecast falls with the edge length.
 double shortest_edge_for(double tets, const SizeOptions& asked, const Scan& scan) {
     double extent = 0;
-    for (const Tissue& tissue : scan.tissues) extent += std::cbrt(tissue.volume);
+    for (const Tissue& tissue : scan.tissues) extent += std::sqrt(tissue.area);
     double low = 1e-6 * extent, high = 10 * extent;
     constexpr int kHalvings = 40;  // of the logarithm: far below any rounding that matters
     for (int i = 0; i < kHalvings; ++i) {
