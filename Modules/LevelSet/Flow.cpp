@@ -18,8 +18,11 @@ constexpr int kSide = Band::kSide;
 constexpr int kApron = kSide + 2;
 constexpr int kStepsBetweenRedistancing = 5;
 // In samples: the flow acts in full up to the first and not beyond the second,
-// where a stencil would reach values clamped to the band's width.
-constexpr float kFullSpeed = 1.2f, kNoSpeed = 2.0f;
+// where a stencil would reach values clamped to the band's width. Corners of
+// cells that the interface cuts, up to sqrt(3) away, must move with it.
+constexpr float kFullSpeed = 1.5f, kNoSpeed = 2.2f;
+// What redistancing must renew for that, in samples.
+constexpr double kReach = 2;
 
 // kappa |grad phi| by central differences in units of the spacing:
 //   [phi_x^2 (phi_yy + phi_zz) + ... - 2 phi_x phi_y phi_xy - ...] / |grad phi|^2
@@ -101,7 +104,7 @@ std::int64_t flow_by_mean_curvature(Band& band, double time, const Locks& locks,
         });
         band.values.swap(next);
         if ((s + 1) % kStepsBetweenRedistancing != 0 && s + 1 != steps) continue;
-        redistance(band, Seeds::keep, 0);
+        redistance(band, Seeds::scale, 0, s + 1 == steps ? band.width : kReach * band.spacing);
         if (!(give_back_radius > 0)) continue;
         give_back(band, before, give_back_radius);
         before = band.values;

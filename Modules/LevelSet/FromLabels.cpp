@@ -99,12 +99,12 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     RegionMap map = map_regions(volume, labels);
     const auto walls = shared_walls(map, face_area(volume));
     const LabelGrid grid = lay_grid(volume, walls, options);
-    const Allowance allowance = allowance_for(grid);
+    const auto claims = claim_samples(map, grid.lattice);
+    const VoxelScene scene{map, grid.lattice, claims, allowance_for(grid), kWorkWidth};
 
     std::vector<RegionBand> work(map.regions.size() + 1);
     each_region(work.size(), "distances", progress, [&](std::size_t r) {
-        work[r] = voxel_band(map, static_cast<RegionMap::Owner>(r), grid.lattice, allowance,
-                             kWorkWidth);
+        work[r] = voxel_band(scene, static_cast<RegionMap::Owner>(r));
     });
     each_region(work.size(), "smoothing", progress,
                 [&](std::size_t r) { smooth_region(grid, work[r]); });

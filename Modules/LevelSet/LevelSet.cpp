@@ -18,7 +18,8 @@ struct Cell {
 };
 
 Cell locate(const LevelSet& phi, const Vec3& point) {
-    const Vec3 g = (point - phi.origin) / phi.spacing;
+    const double per_spacing = 1 / phi.spacing;
+    const Vec3 g = (point - phi.origin) * per_spacing;
     Index3 cell, brick;
     for (int a = 0; a < 3; ++a) {
         cell[a] = std::clamp(static_cast<int>(g[a]), 0, phi.bricks[a] * LevelSet::kBrickCells - 1);
@@ -35,7 +36,7 @@ Cell locate(const LevelSet& phi, const Vec3& point) {
                 n,
                 n * n,
                 g - Vec3(cell[0], cell[1], cell[2]),
-                1 / phi.spacing};
+                per_spacing};
     }
     const Vec3 c = (point - phi.origin) / phi.coarse_spacing;
     Index3 coarse;
@@ -80,6 +81,11 @@ std::size_t LevelSet::memory() const {
 }
 
 Sample LevelSet::sample(const Vec3& point) const {
+    const Vec3 g = point - origin;
+    const double brick = spacing * kBrickCells;
+    if (g.x() >= 0 && g.y() >= 0 && g.z() >= 0 && g.x() <= brick * bricks[0] &&
+        g.y() <= brick * bricks[1] && g.z() <= brick * bricks[2])
+        return interpolate(locate(*this, point));
     const Box b = box();
     const Vec3 inside = point.cwiseMax(b.min).cwiseMin(b.max);
     Sample s = interpolate(locate(*this, inside));

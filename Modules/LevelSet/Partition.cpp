@@ -135,30 +135,39 @@ void partition_place(const std::vector<RegionBand>& regions, const Places& place
     for (int i = 0; i < samples; ++i) work.shift[i] = 0.5f * (work.shift[i] + second[i]);
 }
 
+double inside_cells(const Patch& phi, const Patch& shift) {
+    double sum = 0;
+    for (int k = 0; k < kSide; ++k)
+        for (int j = 0; j < kSide; ++j)
+            for (int i = 0; i < kSide; ++i) {
+                std::array<float, 8> corner;
+                for (int c = 0; c < 8; ++c) {
+                    const int at =
+                        ((k + (c >> 2)) * kSamples + j + (c >> 1 & 1)) * kSamples + i + (c & 1);
+                    corner[c] = phi[at] - shift[at];
+                }
+                sum += inside_fraction(corner);
+            }
+    return sum;
+}
+
+// The volume of every region, mm^3. `part` keeps what each place holds of each
+// region; only places with a region that `moved` are measured again.
 std::vector<double> measure(const std::vector<RegionBand>& regions, const Places& places,
-                            const SharedLattice& lattice, std::span<const double> offset) {
-    std::vector<double> part(places.region.size());
+                            std::span<const double> offset, const std::vector<char>& moved,
+                            std::vector<double>& part) {
+    const double cell = std::pow(regions[0].band.spacing, 3);
     parallel_for(0, places.places.size(), kGrain, [&](std::size_t first, std::size_t last) {
         Scratch work;
         for (std::size_t p = first; p < last; ++p) {
             const Place& place = places.places[p];
+            const auto* here = places.region.data();
+            if (std::none_of(here + place.first, here + place.last,
+                             [&](int r) { return moved[r] != 0; }))
+                continue;
             partition_place(regions, places, place, offset, 1, work);
-            for (std::size_t n = 0; n < place.last - place.first; ++n) {
-                const Patch& phi = work.phi[n];
-                double sum = 0;
-                for (int k = 0; k < kSide; ++k)
-                    for (int j = 0; j < kSide; ++j)
-                        for (int i = 0; i < kSide; ++i) {
-                            std::array<float, 8> corner;
-                            for (int c = 0; c < 8; ++c) {
-                                const int at = ((k + (c >> 2)) * kSamples + j + (c >> 1 & 1)) *
-                                                   kSamples + i + (c & 1);
-                                corner[c] = phi[at] - work.shift[at];
-                            }
-                            sum += inside_fraction(corner);
-                        }
-                part[place.first + n] = sum * std::pow(lattice.spacing, 3);
-            }
+            for (std::size_t n = 0; n < place.last - place.first; ++n)
+                part[place.first + n] = cell * inside_cells(work.phi[n], work.shift);
         }
     });
     std::vector<double> volume = places.full;
@@ -210,28 +219,41 @@ std::vector<SharedWall> shared_walls(const RegionMap& map, const Vec3& face_area
 PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
                                 const SharedLattice& lattice, std::span<const SharedWall> walls,
                                 std::span<const double> volume, const ProgressSink& progress) {
-    constexpr int kMostIterations = 6;
+    constexpr int kMostIterations = 12;
     constexpr double kGoodEnough = 1e-3;
+    const std::size_t count = regions.size();
     const Places places = find_places(regions, map, lattice);
     PartitionSummary summary;
-    summary.offset.assign(regions.size(), 0.0);
+    summary.offset.assign(count, 0.0);
+    std::vector<double> part(places.region.size()), before(count), asked(count, 0.0);
+    std::vector<double> answer(count, 1.0);  // volume gained for volume asked
+    std::vector<char> moved(count, 1);
     while (true) {
         progress.check();
-        const auto now = measure(regions, places, lattice, summary.offset);
-        std::vector<double> missing(regions.size(), 0.0);
+        const auto now = measure(regions, places, summary.offset, moved, part);
+        std::vector<double> missing(count, 0.0);
         summary.largest_error = 0;
-        for (std::size_t r = 1; r < regions.size(); ++r) {
-            missing[r] = volume[r] - now[r];
-            summary.largest_error =
-                std::max(summary.largest_error, std::abs(missing[r]) / volume[r]);
+        for (std::size_t r = 1; r < count; ++r) {
+            const double error = std::abs(volume[r] - now[r]) / volume[r];
+            summary.largest_error = std::max(summary.largest_error, error);
+            // Small regions answer less than their walls' area promises.
+            if (summary.iterations > 0 && std::abs(asked[r]) > 1e-3 * volume[r])
+                answer[r] = std::clamp((now[r] - before[r]) / asked[r], 0.25, 1.5);
+            if (error > kGoodEnough) missing[r] = (volume[r] - now[r]) / answer[r];
         }
         if (summary.largest_error < kGoodEnough || summary.iterations == kMostIterations) break;
         ++summary.iterations;
         const auto change = offsets_for(missing, walls);
-        // Interfaces must stay well inside the bands.
-        for (std::size_t r = 0; r < regions.size(); ++r)
-            summary.offset[r] = std::clamp(summary.offset[r] + change[r], -lattice.spacing,
-                                           lattice.spacing);
+        for (std::size_t r = 1; r < count; ++r) {
+            const double last = summary.offset[r];
+            // Interfaces must stay well inside the bands.
+            summary.offset[r] = std::clamp(last + change[r], -lattice.spacing, lattice.spacing);
+            moved[r] = std::abs(summary.offset[r] - last) > 1e-4 * lattice.spacing;
+            if (!moved[r]) summary.offset[r] = last;
+        }
+        moved[0] = 0;
+        before = now;
+        asked = missing;
     }
     apply(regions, places, summary.offset);
     return summary;

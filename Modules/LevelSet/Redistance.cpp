@@ -35,12 +35,13 @@ using Mask = std::array<std::uint64_t, kSide>;
 
 struct Work {
     std::vector<Foot> foot;
-    std::vector<Mask> seeds;   // samples next to the interface
+    std::vector<Mask> kept;    // samples whose values stay or are scaled
+    std::vector<float> scaled; // their new values, where they do not stay
     std::vector<Mask> known;   // samples with a foot when the current layer began
     std::vector<Mask> grown;   // and now
 
     explicit Work(std::size_t blocks)
-        : foot(blocks * kSize), seeds(blocks, Mask{}), known(blocks, Mask{}), grown(blocks, Mask{}) {}
+        : foot(blocks * kSize), kept(blocks, Mask{}), known(blocks, Mask{}), grown(blocks, Mask{}) {}
 };
 
 // Bits of a block with an apron of one sample: row (k, j), bit i, counted from
@@ -121,9 +122,51 @@ void seed_block(const Band& band, std::size_t b, int slides, Work& work) {
         } else {
             out = p + first_offset(phi.data() + here, 1 / float(band.spacing), edge);
         }
-        work.seeds[b][at / 64] |= std::uint64_t{1} << (at % 64);
+        work.known[b][at / 64] |= std::uint64_t{1} << (at % 64);
     }
-    work.known[b] = work.grown[b] = work.seeds[b];
+    work.grown[b] = work.known[b];
+}
+
+// |grad phi| by central differences, within a quarter of one; one where phi has
+// a kink, which no gradient describes.
+float slope_of(const float* phi, float spacing) {
+    constexpr int steps[3] = {1, kApron, kApron * kApron};
+    constexpr float kKink = 0.3f;  // half the jump of the slope; smooth parts have spacing / radius
+    float slope2 = 0, jump2 = 0;
+    for (const int s : steps) {
+        const float up = phi[s] - phi[0], down = phi[0] - phi[-s];
+        slope2 += 0.25f * (up + down) * (up + down);
+        jump2 += 0.25f * (up - down) * (up - down);
+    }
+    if (jump2 > kKink * kKink * spacing * spacing) return 1;
+    return std::clamp(std::sqrt(slope2) / spacing, 0.8f, 1.25f);
+}
+
+// The interface inside a cell depends on all its corners: those of cells with
+// corners on both sides stay as they are.
+void keep_block(const Band& band, std::size_t b, Work& work) {
+    std::array<float, kApron * kApron * kApron> phi;
+    gather(band, band.position[b], 1, 1, phi.data());
+    for (int k = 0; k < kApron - 1; ++k)
+        for (int j = 0; j < kApron - 1; ++j)
+            for (int i = 0; i < kApron - 1; ++i) {
+                const float* p = phi.data() + (k * kApron + j) * kApron + i;
+                int negative = 0;
+                for (int n = 0; n < 8; ++n)
+                    negative += p[((n >> 2) * kApron + (n >> 1 & 1)) * kApron + (n & 1)] < 0;
+                if (negative == 0 || negative == 8) continue;
+                for (int n = 0; n < 8; ++n) {
+                    const int x = i + (n & 1) - 1, y = j + (n >> 1 & 1) - 1, z = k + (n >> 2) - 1;
+                    if (x < 0 || y < 0 || z < 0 || x >= kSide || y >= kSide || z >= kSide) continue;
+                    work.kept[b][z] |= std::uint64_t{1} << (y * kSide + x);
+                }
+            }
+    if (work.scaled.empty()) return;
+    for (int at = 0; at < kSize; ++at) {
+        if (!(work.kept[b][at / 64] >> (at % 64) & 1)) continue;
+        const int here = ((at / 64 + 1) * kApron + at / 8 % 8 + 1) * kApron + at % 8 + 1;
+        work.scaled[b * kSize + at] = phi[here] / slope_of(phi.data() + here, float(band.spacing));
+    }
 }
 
 // The foot nearest to p among the known neighbours of sample (i, j, k), whose
@@ -177,11 +220,14 @@ void grow_block(const Band& band, std::size_t b, int slides, Work& work) {
         }
 }
 
-void write_block(Band& band, std::size_t b, Seeds seeds, const Work& work) {
+void write_block(Band& band, std::size_t b, const Work& work) {
     float* values = band.block(static_cast<std::int32_t>(b));
     for (int at = 0; at < kSize; ++at) {
         const auto bit = [&](const Mask& mask) { return mask[at / 64] >> (at % 64) & 1; };
-        if (seeds == Seeds::keep && bit(work.seeds[b])) continue;
+        if (bit(work.kept[b])) {
+            if (!work.scaled.empty()) values[at] = work.scaled[b * kSize + at];
+            continue;
+        }
         float d = band.width;
         if (bit(work.grown[b]))
             d = std::min(d, float(band.spacing *
@@ -192,21 +238,25 @@ void write_block(Band& band, std::size_t b, Seeds seeds, const Work& work) {
 
 }  // namespace
 
-void redistance(Band& band, Seeds seeds, int slides) {
+void redistance(Band& band, Seeds seeds, int slides, double reach) {
     const std::size_t blocks = band.position.size();
     Work work(blocks);
+    if (seeds == Seeds::scale) work.scaled.resize(blocks * kSize);
     const auto each_block = [&](auto&& body) {
         parallel_for(0, blocks, kGrain, [&](std::size_t first, std::size_t last) {
             for (std::size_t b = first; b < last; ++b) body(b);
         });
     };
-    each_block([&](std::size_t b) { seed_block(band, b, slides, work); });
-    const int layers = static_cast<int>(std::ceil(band.width / band.spacing));
+    each_block([&](std::size_t b) {
+        seed_block(band, b, slides, work);
+        if (seeds != Seeds::project) keep_block(band, b, work);
+    });
+    const int layers = static_cast<int>(std::ceil(std::min(reach, double(band.width)) / band.spacing));
     for (int layer = 1; layer <= layers; ++layer) {
         each_block([&](std::size_t b) { grow_block(band, b, slides, work); });
         work.known = work.grown;
     }
-    each_block([&](std::size_t b) { write_block(band, b, seeds, work); });
+    each_block([&](std::size_t b) { write_block(band, b, work); });
 }
 
 namespace {

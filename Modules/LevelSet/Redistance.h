@@ -3,11 +3,14 @@
 
 #include "LevelSet/Band.h"
 
+#include <limits>
+
 namespace myotet::levelset {
 
 /// What happens to the samples next to the interface, which fix where it lies.
 enum class Seeds {
-    keep,     ///< they stay: the interface does not move at all
+    keep,     ///< they stay, as do all corners of cells that it cuts
+    scale,    ///< the same, divided by |grad phi| where that is sure, up to a quarter
     project,  ///< distance to the zero set of the trilinear interpolant
 };
 
@@ -15,10 +18,12 @@ enum class Seeds {
 /// interface point known to its neighbours, layer by layer from the interface,
 /// clamped to the band's width; signs stay. `slides` is how often each nearest
 /// point is improved along the interface: 0 errs by up to an eighth of the
-/// spacing, 2 by the interpolation alone. Odd in phi: two bands that are each
+/// spacing, 2 by the interpolation alone. Values beyond `reach` (mm) may be the
+/// band's width instead. Odd in phi: two bands that are each
 /// other's negative near a wall stay so.
 /// Cost: O(stored samples); 13 bytes a sample while it runs.
-void redistance(Band& band, Seeds seeds, int slides);
+void redistance(Band& band, Seeds seeds, int slides,
+                double reach = std::numeric_limits<double>::infinity());
 
 /// The same samples with blocks wherever the distance may be below `width`,
 /// and none where it cannot; to be followed by redistance(). The outermost

@@ -159,16 +159,26 @@ std::int8_t lock_of(double boxes, bool inside, bool thin, const Allowance& allow
     return static_cast<std::int8_t>(inside ? -lock : lock);
 }
 
-void fill_block(const Prober& prober, const SharedLattice& lattice, const Allowance& allowance,
-                std::size_t b, RegionBand& region) {
+void fill_block(const Prober& prober, const VoxelScene& scene, std::size_t b,
+                RegionBand& region) {
     Band& band = region.band;
+    const SharedLattice& lattice = scene.lattice;
     const Index3 p = band.position[b];
     float* values = band.block(static_cast<std::int32_t>(b));
     std::int8_t* locks = region.locks.data() + b * Band::kSize;
+    const auto claims = claims_of_block(
+        scene.claims, lattice.slot({p[0] + region.first[0], p[1] + region.first[1],
+                                    p[2] + region.first[2]}));
+    auto claim = claims.begin();
     for (int at = 0; at < Band::kSize; ++at) {
         const Vec3 sample(p[0] * kSide + at % kSide, p[1] * kSide + at / kSide % kSide,
                           p[2] * kSide + at / (kSide * kSide));
-        const Vec3 u = lattice.local_to_index * (band.origin + lattice.spacing * sample);
+        Vec3 u = lattice.local_to_index * (band.origin + lattice.spacing * sample);
+        if (claim != claims.end() && static_cast<int>(claim->sample % Band::kSize) == at) {
+            for (int a = 0; a < 3; ++a)
+                if (claim->axes >> a & 1) u[a] = claim->voxel[a];
+            ++claim;
+        }
         const Index3 v{static_cast<int>(std::lround(u[0])), static_cast<int>(std::lround(u[1])),
                        static_cast<int>(std::lround(u[2]))};
         const bool inside = prober.map.owner_at(v[0], v[1], v[2]) == prober.owner;
@@ -178,7 +188,7 @@ void fill_block(const Prober& prober, const SharedLattice& lattice, const Allowa
         values[at] = inside ? -d : d;
         const bool thin = prober.map.holds(v[0], v[1], v[2]) &&
                           prober.map.flags[prober.map.offset(v[0], v[1], v[2])] & RegionMap::kThin;
-        locks[at] = lock_of(near.boxes, inside, thin, allowance, lattice, region.lock_unit);
+        locks[at] = lock_of(near.boxes, inside, thin, scene.allowance, lattice, region.lock_unit);
     }
 }
 
@@ -214,12 +224,13 @@ void drop_empty_blocks(RegionBand& region) {
 
 }  // namespace
 
-RegionBand voxel_band(const RegionMap& map, RegionMap::Owner owner, const SharedLattice& lattice,
-                      const Allowance& allowance, double width) {
+RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner) {
+    const RegionMap& map = scene.map;
+    const SharedLattice& lattice = scene.lattice;
     RegionBand region;
     Band& band = region.band;
     band.spacing = lattice.spacing;
-    band.width = static_cast<float>(width * lattice.spacing);
+    band.width = static_cast<float>(scene.width * lattice.spacing);
     // Locks reach one sample deep; what lies deeper is not reached by a flow.
     region.lock_unit = lattice.spacing / kLargestLock;
     band.beyond = owner == 0 ? Band::kInside : Band::kOutside;
@@ -233,8 +244,7 @@ RegionBand voxel_band(const RegionMap& map, RegionMap::Owner owner, const Shared
         prober.window[a] =
             static_cast<int>(std::ceil(lattice.spacing / lattice.plane_spacing[a] - 1e-6));
     parallel_for(0, band.position.size(), 32, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b)
-            fill_block(prober, lattice, allowance, b, region);
+        for (std::size_t b = first; b < last; ++b) fill_block(prober, scene, b, region);
     });
     mark_unstored_blocks(band);
     redistance(band, Seeds::keep, 0);

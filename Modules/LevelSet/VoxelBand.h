@@ -2,22 +2,12 @@
 #pragma once
 
 #include "LevelSet/Band.h"
+#include "LevelSet/Claims.h"
 #include "LevelSet/RegionMap.h"
-
-#include <Eigen/Geometry>
 
 #include <vector>
 
 namespace myotet::levelset {
-
-/// The lattice that all regions share: sample (I, J, K) at spacing * (I, J, K)
-/// in local coordinates, block B holding the samples from 8 B on.
-struct SharedLattice {
-    double spacing = 0;                        ///< mm
-    Index3 blocks{0, 0, 0};                    ///< that cover the volume and a margin
-    Eigen::Affine3d local_to_index;            ///< local coordinates, mm, to voxel index
-    Vec3 plane_spacing = Vec3::Zero();         ///< between voxel planes of each axis, mm
-};
 
 /// How far smoothing may carry an interface away from the voxels' walls.
 struct Allowance {
@@ -37,13 +27,19 @@ struct RegionBand {
     bool held_back = false;           ///< a lock of a thin part stopped the flow
 };
 
-/// Signed distances from the walls of the voxels of `owner` in a band of
-/// `width` samples, exact next to the walls, with the locks. The distance from
-/// a point to the nearest voxel of the other kind is that to a box, so that no
-/// marching is needed.
-[[nodiscard]] RegionBand voxel_band(const RegionMap& map, RegionMap::Owner owner,
-                                    const SharedLattice& lattice, const Allowance& allowance,
-                                    double width);
+/// What all regions of a volume are measured with.
+struct VoxelScene {
+    const RegionMap& map;
+    const SharedLattice& lattice;
+    const std::vector<Claim>& claims;
+    Allowance allowance;
+    double width = 3;         ///< of the bands, in samples
+};
+
+/// Signed distances from the walls of the voxels of `owner`, exact next to the
+/// walls, with the locks. The distance from a point to the nearest voxel of the
+/// other kind is that to a box, so that no marching is needed.
+[[nodiscard]] RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner);
 
 /// phi as its lock allows it.
 [[nodiscard]] inline float locked(float phi, std::int8_t lock, float unit) {
