@@ -18,7 +18,7 @@ struct Expansion {
 /// q = S^3 / (432 (6V)^2) of one tetrahedron; infinite unless it is positive.
 [[nodiscard]] double shape_energy(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// sum of q^m over the tetrahedra at one node as a function of its position x,
+/// sum of q^m (m a power of two) over the tetrahedra at one node as a function of its position x,
 /// the other nodes fixed; q = S^3 / (432 (6V)^2), S the sum of squared edges.
 /// q >= 1, with equality for a regular tetrahedron; infinite where a volume is
 /// not positive. Convex in x for m >= 1/2 (the inverse mean ratio is convex,
@@ -34,14 +34,10 @@ public:
 
     [[nodiscard]] double value(const Vec3& x, int m) const;
     [[nodiscard]] Expansion expand(const Vec3& x, int m) const;
-    /// Largest q at x.
-    [[nodiscard]] double worst(const Vec3& x) const;
 
 private:
-    // 6V = n . x - d;  S = 3 |x|^2 - 2 s . x + e.
-    std::vector<double> nx_, ny_, nz_, d_, sx_, sy_, sz_, e_;
-    mutable std::vector<double> q_;
-    std::size_t count_ = 0;
+    std::vector<double> rows_;  // a table: one row a coefficient, `stride_` entries each
+    std::size_t stride_ = 0, count_ = 0;
 };
 
 }  // namespace myotet::meshing
