@@ -23,7 +23,7 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-std::string readable(double seconds) {
+std::string as_time(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
     if (whole < 60) return std::to_string(whole) + " s";
     if (whole < 3600)
@@ -33,7 +33,7 @@ std::string readable(double seconds) {
 
 std::string time_left(double elapsed, double fraction) {
     if (elapsed < kGuessSeconds || !(fraction > 0)) return "";
-    return ", about " + readable(elapsed * (1 - fraction) / fraction) + " left";
+    return ", about " + as_time(elapsed * (1 - fraction) / fraction) + " left";
 }
 
 int percent(double fraction) { return static_cast<int>(std::floor(100 * fraction)); }

@@ -2,24 +2,18 @@
 #include "JobStages.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "LevelSet/FromSurface.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Meshing/Refine.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
 
 using levelset::LabelLevelSets;
-
-std::string in_mm(double length) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g mm", length);
-    return text;
-}
 
 std::vector<std::int32_t> values_of(const std::vector<Tissue>& tissues) {
     std::vector<std::int32_t> values;
@@ -58,9 +52,9 @@ void count_surface_pieces(const Scan& scan, std::vector<TissueMesh>& tissues) {
     TissueReport& report = tissues.front().report;
     report.components_in = scan.shells;
     if (report.components_out < scan.shells)
-        report.notes.push_back(std::to_string(scan.shells - report.components_out) +
-                               " closed pieces of the surface lie within others, touch them or "
-                               "are too small to be meshed");
+        report.notes.push_back(counted(scan.shells - report.components_out, "closed piece") +
+                               " of the surface within another, touching one or too small to be "
+                               "meshed");
 }
 
 }  // namespace
@@ -83,8 +77,8 @@ std::vector<TissueMesh> mesh_to_size(LabelLevelSets& sets, const Scan& scan,
     std::vector<TissueMesh> tissues;
     for (int tries = 1;; ++tries) {
         const meshing::LevelPlan plan = meshing::plan_levels(sizes);
-        progress.note("edge length " + in_mm(sizes.edge_length) + " on the surface, up to " +
-                      in_mm(plan.coarsest_edge) + " inside");
+        progress.note("edge length " + readable(sizes.edge_length) + " mm on the surface, up to " +
+                      readable(plan.coarsest_edge) + " mm inside");
         tissues = mesh_tissues(sets, scan.tissues, sizes, after, progress);
         // Refinement that follows compression can miss the number that the
         // candidates had: then a better edge length.

@@ -22,14 +22,15 @@ constexpr double kTetsOfSurface = 1e5;     // by default
 constexpr double kSlope = -2.5;
 constexpr double kSamplesPerEdge = 4;  // level set of a surface: samples along an edge
 
-// Measured on the arm and the knee; see the README of this folder.
-constexpr double kBytesPerVoxel = 12;
-constexpr double kBytesPerSample = 700;  // per level set sample on a tissue's surface
-constexpr double kBytesPerTet = 600;
+// Fitted to runs on a 32-tissue arm, a 49-tissue knee and a 61-tissue trunk, and
+// rounded up; a sample is a square of the level set's spacing on a surface.
+constexpr double kBytesOfProgram = 6e7;
+constexpr double kBytesPerVoxel = 5;
+constexpr double kBytesPerSample = 450;
+constexpr double kBytesPerTet = 200;
 constexpr double kSecondsPerVoxel = 4e-8;
-constexpr double kSecondsPerSample = 1.2e-5;
-constexpr double kSecondsPerTet = 7e-5;
-constexpr double kBytesOfProgram = 1.5e8;
+constexpr double kSecondsPerSample = 3.5e-5;
+constexpr double kSecondsPerTet = 5e-5;
 constexpr double kMostTets = 5e8;  // 32-bit indices and what hangs on them
 
 /// The inside is never finer than the surface.

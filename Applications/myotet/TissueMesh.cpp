@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Sizing.h"
 #include "Stopwatch.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
@@ -118,8 +120,9 @@ std::vector<RegionMesh> mesh_regions(LabelLevelSets& sets, const std::vector<Tis
 }
 
 std::string component_text(const Region& region) {
-    return "component " + std::to_string(region.component) + " (" + std::to_string(region.voxels) +
-           " voxels, " + std::to_string(2 * region.inscribed_radius) + " mm thick)";
+    return "component " + std::to_string(region.component) + " (" +
+           counted(region.voxels, "voxel") + ", " + readable(2 * region.inscribed_radius) +
+           " mm thick)";
 }
 
 /// Thick enough for its pieces to be promised; a surface's region always is.
@@ -145,6 +148,17 @@ void record_region(const Region& region, const RegionMesh& made, double edge_len
     report.seconds["select"] += made.summary.seconds_select;
     report.seconds["compress"] += made.summary.seconds_compress;
     report.seconds["check"] += made.seconds_check;
+}
+
+/// A tissue too thin or small for its edge length can miss its volume.
+void note_volume(TissueReport& report) {
+    constexpr std::int64_t kFewVoxels = 2000;
+    constexpr double kSlack = 0.02, kSlackOfFew = 0.05;
+    const double error = report.volume_mesh / report.volume_labels - 1;
+    if (report.tets > 0 &&
+        !(std::abs(error) <= (report.voxels < kFewVoxels ? kSlackOfFew : kSlack)))
+        report.notes.push_back("the mesh has " + readable(100 * error) +
+                               " % more volume than the input; use a shorter --edge-length");
 }
 
 TissueMesh join(const Tissue& tissue, const std::vector<Region>& regions,
@@ -186,6 +200,7 @@ std::vector<TissueMesh> mesh_tissues(LabelLevelSets& sets, const std::vector<Tis
         progress.report("checking", static_cast<double>(t) / static_cast<double>(tissues.size()));
         whole[t] = join(tissues[t], sets.regions, made, sizes.edge_length);
         measure(whole[t].mesh, whole[t].report);
+        note_volume(whole[t].report);
     }
     return whole;
 }

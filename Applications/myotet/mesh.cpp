@@ -7,6 +7,7 @@
 #include "Console.h"
 #include "MeshJob.h"
 #include "ReportText.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
@@ -80,6 +81,16 @@ ExitCode print_forecast(const Arguments& a, ProgressSink& progress) {
     return ExitCode::done;
 }
 
+void tell_notes(const RunReport& report) {
+    std::size_t count = 0;
+    for (const TissueReport& tissue : report.tissues) {
+        count += tissue.notes.size();
+        for (const std::string& note : tissue.notes)
+            log_detail("label " + std::to_string(tissue.label) + " (" + tissue.name + "): " + note);
+    }
+    if (count > 0) log_info(counted(count, "note") + " on the tissues: see report.json");
+}
+
 ExitCode tell_broken_promises(const RunReport& report) {
     ExitCode code = ExitCode::done;
     for (const TissueReport& tissue : report.tissues) {
@@ -102,9 +113,7 @@ ExitCode run(const Arguments& a) {
         if (a.dry_run) return print_forecast(a, progress);
         report = run_job(a.job, progress);
     }
-    for (const TissueReport& tissue : report.tissues)
-        for (const std::string& note : tissue.notes)
-            log_detail("label " + std::to_string(tissue.label) + " (" + tissue.name + "): " + note);
+    tell_notes(report);
     std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
     log_info("results are in " + a.job.output.string());
     return tell_broken_promises(report);
