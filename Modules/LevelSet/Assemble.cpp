@@ -2,10 +2,12 @@
 #include "Core/Parallel.h"
 #include "LevelSet/Band.h"
 #include "LevelSet/FarField.h"
+#include "LevelSet/Redistance.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace myotet::levelset {
 namespace {
@@ -93,9 +95,43 @@ struct Neighbours {
     }
 };
 
-// Beyond the band the coarse field speaks, yet never says less than the band's
-// width, except on faces towards bricks that hold nothing but the coarse field.
-void fill_brick(const Band& band, const Index3& b, LevelSet& phi, float* out) {
+// Distance of sample `at` of brick b, mm, from the nearest of the eight feet
+// around it, slid along the interface: unlike values interpolated on the
+// coarse lattice, right on ridges too.
+float distance_to_feet(const Band& band, const FarField& far, const Index3& b, const Index3& at) {
+    constexpr int n = kCells / kCoarseStep;
+    Index3 c;
+    Eigen::Vector3f p;
+    for (int a = 0; a < 3; ++a) {
+        c[a] = b[a] * n + std::min(at[a] / kCoarseStep, n - 1);
+        p[a] = static_cast<float>(b[a] * kCells + at[a]);
+    }
+    float nearest = std::numeric_limits<float>::infinity();
+    const Eigen::Vector3f* best = nullptr;
+    for (int corner = 0; corner < 8; ++corner) {
+        const std::size_t i = (static_cast<std::size_t>(c[2] + (corner >> 2)) * far.size[1] +
+                               c[1] + (corner >> 1 & 1)) *
+                                  far.size[0] +
+                              c[0] + (corner & 1);
+        const float d = (p - far.foot[i]).squaredNorm();
+        if (d >= nearest) continue;
+        nearest = d;
+        best = &far.foot[i];
+    }
+    const auto in_mm = [&](const Eigen::Vector3f& q) {
+        return Vec3(band.origin + band.spacing * q.cast<double>());
+    };
+    const Vec3 point = in_mm(p);
+    Vec3 foot = in_mm(*best);
+    slide(band, point, 1, foot);
+    return static_cast<float>((point - foot).norm());
+}
+
+// Beyond the band: inside, where depth decides how coarse elements may be, the
+// distance to a foot; outside, the coarse field; both no less than the band's
+// width. On faces towards bricks that hold nothing but the coarse field, that.
+void fill_brick(const Band& band, const FarField& far, const Index3& b, LevelSet& phi,
+                float* out) {
     Brick coarse;
     gather(band, b, 0, 1, out);
     interpolate_coarse(phi, b, coarse);
@@ -105,10 +141,12 @@ void fill_brick(const Band& band, const Index3& b, LevelSet& phi, float* out) {
         for (int j = 0; j < kSamples; ++j)
             for (int i = 0; i < kSamples; ++i, ++at) {
                 if (std::abs(out[at]) < width) continue;
-                const bool inside = out[at] < 0;
-                out[at] = coarse[at];
-                if (neighbours.all(i, j, k))
-                    out[at] = inside ? std::min(out[at], -width) : std::max(out[at], width);
+                if (!neighbours.all(i, j, k))
+                    out[at] = coarse[at];
+                else if (out[at] > 0)
+                    out[at] = std::max(width, coarse[at]);
+                else
+                    out[at] = -std::max(width, distance_to_feet(band, far, b, {i, j, k}));
             }
 }
 
@@ -123,12 +161,13 @@ LevelSet assemble(const Band& band) {
     phi.coarse_spacing = kCoarseStep * band.spacing;
     for (int a = 0; a < 3; ++a)
         phi.coarse_size[a] = kCells / kCoarseStep * band.blocks[a] + 1;
-    phi.coarse_values = far_field(band);
+    FarField far = far_field(band);
+    phi.coarse_values = std::move(far.value);
     phi.values.resize(number_bricks(band, phi) * LevelSet::kBrickSize);
     parallel_for(0, phi.brick_of.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t s = first; s < last; ++s)
             if (const std::int32_t number = phi.brick_of[s]; number >= 0)
-                fill_brick(band, place_of(s, phi.bricks), phi,
+                fill_brick(band, far, place_of(s, phi.bricks), phi,
                            phi.values.data() +
                                static_cast<std::size_t>(number) * LevelSet::kBrickSize);
     });

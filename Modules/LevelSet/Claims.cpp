@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace myotet::levelset {
@@ -65,25 +66,76 @@ void add_wishes(const RegionMap& map, const SharedLattice& lattice, const Vec3& 
             }
 }
 
+// A speck all of whose wishes went to others takes the nearest sample that no
+// claim holds and that no region of its size or smaller owns.
+void rescue(const RegionMap& map, const SharedLattice& lattice, const Vec3& centre,
+            const Wish& wish, std::vector<Claim>& claims) {
+    constexpr int kReach = 2;
+    const auto before = [](const Claim& c, std::uint64_t key) { return c.sample < key; };
+    Index3 middle;
+    for (int a = 0; a < 3; ++a)
+        middle[a] = static_cast<int>(std::lround(centre[a] / lattice.spacing));
+    double nearest = std::numeric_limits<double>::infinity();
+    Claim best = wish.claim;
+    for (int k = middle[2] - kReach; k <= middle[2] + kReach; ++k)
+        for (int j = middle[1] - kReach; j <= middle[1] + kReach; ++j)
+            for (int i = middle[0] - kReach; i <= middle[0] + kReach; ++i) {
+                const Vec3 p = lattice.spacing * Vec3(i, j, k);
+                const Vec3 u = lattice.local_to_index * p;
+                const int owner = map.owner_at(static_cast<int>(std::lround(u[0])),
+                                               static_cast<int>(std::lround(u[1])),
+                                               static_cast<int>(std::lround(u[2])));
+                if (owner > 0 && map.regions[owner - 1].voxels <= wish.voxels) continue;
+                const std::uint64_t key = key_of(lattice, i, j, k);
+                const auto it = std::lower_bound(claims.begin(), claims.end(), key, before);
+                if (it != claims.end() && it->sample == key) continue;
+                const double distance = (p - centre).squaredNorm();
+                if (distance < nearest) {
+                    nearest = distance;
+                    best.sample = key;
+                    best.axes = 7;
+                }
+            }
+    if (nearest < std::numeric_limits<double>::infinity())
+        claims.insert(std::lower_bound(claims.begin(), claims.end(), best.sample, before), best);
+}
+
 }  // namespace
 
 std::vector<Claim> claim_samples(const RegionMap& map, const SharedLattice& lattice) {
     std::vector<Wish> wishes;
     const Eigen::Affine3d to_local = lattice.local_to_index.inverse();
+    std::vector<std::int64_t> held(map.regions.size() + 1, 0);  // voxels sure of a sample
+    std::vector<Wish> first(map.regions.size() + 1);
     for (int k = 0; k < map.size[2]; ++k)
         for (int j = 0; j < map.size[1]; ++j)
             for (int i = 0; i < map.size[0]; ++i) {
                 const std::size_t at = map.offset(i, j, k);
-                if (!(map.flags[at] & RegionMap::kThin) || map.owner[at] == 0) continue;
-                const Wish wish{map.regions[map.owner[at] - 1].voxels, at, {0, {i, j, k}, 0}};
-                add_wishes(map, lattice, to_local * Vec3(i, j, k), wish, wishes);
+                const RegionMap::Owner owner = map.owner[at];
+                if (owner == 0) continue;
+                const bool thin = map.flags[at] & RegionMap::kThin;
+                const Wish wish{thin ? map.regions[owner - 1].voxels : 0, at, {0, {i, j, k}, 0}};
+                const std::size_t count = wishes.size();
+                if (thin) add_wishes(map, lattice, to_local * Vec3(i, j, k), wish, wishes);
+                if (wishes.size() == count)
+                    ++held[owner];
+                else if (first[owner].voxels == 0)
+                    first[owner] = wish;
             }
     std::sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) {
         return std::tie(a.claim.sample, a.voxels, a.at) < std::tie(b.claim.sample, b.voxels, b.at);
     });
     std::vector<Claim> claims;
     for (const Wish& w : wishes)
-        if (claims.empty() || claims.back().sample != w.claim.sample) claims.push_back(w.claim);
+        if (claims.empty() || claims.back().sample != w.claim.sample) {
+            claims.push_back(w.claim);
+            ++held[map.owner[w.at]];
+        }
+    for (std::size_t r = 1; r < held.size(); ++r)
+        if (held[r] == 0 && first[r].voxels > 0) {
+            const Index3& v = first[r].claim.voxel;
+            rescue(map, lattice, to_local * Vec3(v[0], v[1], v[2]), first[r], claims);
+        }
     return claims;
 }
 

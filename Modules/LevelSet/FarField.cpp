@@ -105,7 +105,7 @@ void slide_feet(const Band& band, Lattice& lattice, int k) {
 
 }  // namespace
 
-std::vector<float> far_field(const Band& band) {
+FarField far_field(const Band& band) {
     Lattice lattice;
     constexpr int per_block = Band::kSide / kCoarseStep;
     for (int a = 0; a < 3; ++a) lattice.size[a] = per_block * band.blocks[a] + 1;
@@ -132,7 +132,7 @@ std::vector<float> far_field(const Band& band) {
             const double far = std::max(d, double(band.width));
             lattice.value[i] = static_cast<float>(lattice.value[i] < 0 ? -far : far);
         }
-    return std::move(lattice.value);
+    return {lattice.size, std::move(lattice.value), std::move(lattice.foot)};
 }
 
 }  // namespace myotet::levelset

@@ -70,7 +70,7 @@ Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand&
     region.smoothed_less = work.held_back;
     Band band = refit(work.band, static_cast<float>(kResultWidth * work.band.spacing));
     work = {};
-    redistance(band, Seeds::keep, 2);
+    redistance(band, Seeds::keep_cells, 2);
     region.phi = assemble(band);
     region.volume_level_set = enclosed_volume(region.phi);
     region.inscribed_radius = inscribed_radius(region.phi);

@@ -131,7 +131,7 @@ LevelSet from_surface(const TriMesh& surface, const SurfaceOptions& options,
     // quarter of the spacing two samples away; ours hold to the band's edge.
     Band band = surface_band(surface, options.spacing, kExactWidth, progress);
     band = refit(band, static_cast<float>(kHalfWidth * options.spacing));
-    redistance(band, Seeds::keep, 2);
+    redistance(band, Seeds::keep_ends, 2);
     progress.report("level sets", 0);
     LevelSet phi = assemble(band);
     progress.report("level sets", 1);

@@ -249,7 +249,8 @@ void redistance(Band& band, Seeds seeds, int slides, double reach) {
     };
     each_block([&](std::size_t b) {
         seed_block(band, b, slides, work);
-        if (seeds != Seeds::project) keep_block(band, b, work);
+        if (seeds == Seeds::keep_ends) work.kept[b] = work.known[b];
+        if (seeds == Seeds::keep_cells || seeds == Seeds::scale) keep_block(band, b, work);
     });
     const int layers = static_cast<int>(std::ceil(std::min(reach, double(band.width)) / band.spacing));
     for (int layer = 1; layer <= layers; ++layer) {

@@ -7,11 +7,12 @@
 
 namespace myotet::levelset {
 
-/// What happens to the samples next to the interface, which fix where it lies.
+/// What happens to the samples near the interface, which fix where it lies.
 enum class Seeds {
-    keep,     ///< they stay, as do all corners of cells that it cuts
-    scale,    ///< the same, divided by |grad phi| where that is sure, up to a quarter
-    project,  ///< distance to the zero set of the trilinear interpolant
+    keep_ends,   ///< both ends of every cut edge of the lattice stay
+    keep_cells,  ///< all corners of cut cells stay: the interface does not move at all
+    scale,       ///< the same, divided by |grad phi| where that is sure, up to a quarter
+    project,     ///< distance to the zero set of the trilinear interpolant
 };
 
 /// Makes every other sample of the stored blocks the distance to the nearest

@@ -247,7 +247,7 @@ RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner) {
         for (std::size_t b = first; b < last; ++b) fill_block(prober, scene, b, region);
     });
     mark_unstored_blocks(band);
-    redistance(band, Seeds::keep, 0);
+    redistance(band, Seeds::keep_cells, 0);
     drop_empty_blocks(region);
     return region;
 }
