@@ -98,8 +98,7 @@ public:
     // stay away.
     TetMesh fit() {
         for (;;) {
-            Candidate candidate =
-                select_candidate(lattice_, {.components = options_.components}, progress_);
+            Candidate candidate = select();
             record(candidate, summary);
             red_ = std::move(candidate.red);
             summary.seconds_select += watch_.lap();
@@ -144,6 +143,18 @@ public:
     Summary summary;
 
 private:
+    // Where repair runs into the end of the lattice, a lattice that reaches farther.
+    Candidate select() {
+        const SelectOptions options{.components = options_.components};
+        try {
+            return select_candidate(lattice_, options, progress_);
+        } catch (const MeshError&) {
+            plan_.outside *= 3;
+            lattice_ = build_lattice(phi_, options_, plan_, progress_);
+            return select_candidate(lattice_, options, progress_);
+        }
+    }
+
     bool refine(const std::vector<lattice::RedTet>& tets) {
         if (tets.empty() || lattice_.refine(tets) == 0) return false;
         lattice_.close();

@@ -21,11 +21,6 @@ constexpr std::size_t kGrain = 1024;
 // change of size start one layer inside.
 constexpr double kNearInterface = 0.75;
 
-// Tetrahedra with all nodes farther outside than this many edges are dropped.
-// One edge suffices to enclose the object [Teran05, sec. 6]; the rest leaves
-// room for nodes that topology adds.
-constexpr double kOutside = 3;
-
 // A median surface edge after compression, as a fraction of the lattice's long
 // edge: surface triangles have long and short edges, measured over shapes.
 constexpr double kSurfaceEdgeOfLattice = 0.825;
@@ -96,7 +91,7 @@ Verdict judge(const RedGreenLattice& lattice, const WantedSize& wanted, const Op
         nearest = std::min(nearest, std::abs(v));
         size = std::min(size, wanted[n]);
     }
-    if (lowest > kOutside * edge) return Verdict::discard;
+    if (lowest > plan.outside * edge) return Verdict::discard;
     if (nearest < kNearInterface * edge && edge > size * kSlack) return Verdict::refine;
     if (options.sizing && lowest < edge && edge > plan.smallest_edge * kSlack) {
         Vec3 centre = Vec3::Zero();
@@ -156,7 +151,7 @@ double local_thickness(const LevelSet& phi, const Vec3& point, double longest) {
 
 RedGreenLattice build_lattice(const LevelSet& phi, const Options& options, const LevelPlan& plan,
                               ProgressSink& progress) {
-    RedGreenLattice lattice(phi.box(), plan.coarsest_edge, plan.max_level, kOutside,
+    RedGreenLattice lattice(phi.box(), plan.coarsest_edge, plan.max_level, plan.outside,
                             [&phi](const Vec3& p) { return phi.value(p); });
     WantedSize wanted(phi, options, plan);
     for (int level = 0; level < plan.max_level; ++level) {

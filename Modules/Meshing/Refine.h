@@ -15,6 +15,10 @@ struct LevelPlan {
     double smallest_edge = 0;  ///< mm; the finest level is not shorter
     int surface_level = 0;
     int max_level = 0;
+    /// Tetrahedra with all nodes farther outside than this many edges are dropped.
+    /// One edge suffices to enclose the object [Teran05, sec. 6]; the rest leaves
+    /// room for nodes that topology adds.
+    double outside = 1.8;
 };
 [[nodiscard]] LevelPlan plan_levels(const Options& options);
 
