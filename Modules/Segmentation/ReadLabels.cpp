@@ -8,6 +8,7 @@
 #include "Segmentation/TextHeader.h"
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -134,6 +135,11 @@ void write_labels(const LabelVolume& volume, const fs::path& file) {
     if (format == Format::none || extension == ".mhd" || extension == ".nhdr")
         refuse_format(file, ".nii, .nii.gz, .nrrd or .mha");
     write_atomically(file, [&](const fs::path& temporary) {
+        // Tried first, for a message with the final name; ITK leaks when it cannot open a file.
+        if (!std::ofstream(temporary))
+            throw IoError(
+                file.string() +
+                ": cannot be written; check that the folder exists and may be written to");
         if (format == Format::nifti)
             write_nifti(volume, temporary);
         else if (format == Format::nrrd)

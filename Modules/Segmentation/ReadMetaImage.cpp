@@ -2,10 +2,11 @@
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/ItkImage.h"
+#include "Segmentation/Scalars.h"
 #include "Segmentation/TextHeader.h"
 
 #include <bit>
-#include <charconv>
+#include <cmath>
 
 // The header is read here and not by ITK, whose MetaIO prints to the terminal
 // when it meets a damaged one.
@@ -37,18 +38,7 @@ std::string required(const TextHeader& header, const char* name, const fs::path&
 /// `count` numbers apart by white space; empty text gives none.
 std::vector<double> numbers(const std::string& text, std::size_t count, const char* name,
                             const fs::path& file) {
-    std::vector<double> values;
-    for (const char *at = text.data(), *end = at + text.size(); at != end;) {
-        if (*at == ' ' || *at == '\t') {
-            ++at;
-            continue;
-        }
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc()) break;
-        values.push_back(value);
-        at = next;
-    }
+    std::vector<double> values = parse_numbers(text);
     if (!text.empty() && values.size() < count)
         throw InputError(file.string() + ": the header's " + name + " reads '" +
                          text.substr(0, 60) + "' but must be " + std::to_string(count) +

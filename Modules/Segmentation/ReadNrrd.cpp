@@ -2,6 +2,7 @@
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/ItkImage.h"
+#include "Segmentation/NrrdHeader.h"
 #include "Segmentation/TextHeader.h"
 
 #include <algorithm>
@@ -22,33 +23,9 @@ struct Storage {
     bool ascii = false;
 };
 
-/// Teem reads an unknown spacing as 1; a label volume must know it.
-void check_spacing_fields(const TextHeader& header, const fs::path& file) {
-    for (const char* field : {"spacings", "space directions", "space origin"}) {
-        const std::string text = lower_case(header.get(field));
-        if (text.find("nan") != std::string::npos || text.find("inf") != std::string::npos)
-            throw InputError(file.string() + ": the header's " + field + " reads '" + text +
-                             "', but spacing and place must be finite numbers; correct the header");
-    }
-}
-
-/// Millimetres per unit of length that the header uses.
-double unit_in_mm(const TextHeader& header, const fs::path& file) {
-    const std::string text = lower_case(header.get("space units"));
-    const auto open = text.find('"');
-    if (open == std::string::npos) return 1;
-    const std::string unit = text.substr(open + 1, text.find('"', open + 1) - open - 1);
-    if (unit.empty() || unit == "mm" || unit == "millimeter" || unit == "millimetre") return 1;
-    if (unit == "cm") return 10;
-    if (unit == "m") return 1000;
-    if (unit == "um" || unit == "\xc2\xb5m" || unit == "micron") return 1e-3;
-    throw InputError(file.string() + ": the header's space units are '" + unit +
-                     "', but mm, cm, m or um are known; correct the header");
-}
-
-std::uint64_t data_bytes(const ItkHeader& itk) {
+std::uint64_t data_bytes(const NrrdMeaning& meaning) {
     std::uint64_t bytes = 8;
-    switch (itk.type) {
+    switch (meaning.type) {
         case ScalarType::int8:
         case ScalarType::uint8: bytes = 1; break;
         case ScalarType::int16:
@@ -58,7 +35,7 @@ std::uint64_t data_bytes(const ItkHeader& itk) {
         case ScalarType::float32: bytes = 4; break;
         default: break;
     }
-    for (const int n : itk.size) bytes *= static_cast<std::uint64_t>(n);
+    for (const int n : meaning.size) bytes *= static_cast<std::uint64_t>(n);
     return bytes;
 }
 
@@ -90,7 +67,7 @@ Storage find_storage(const TextHeader& header, const fs::path& file) {
     return storage;
 }
 
-ByteStream open_data(const TextHeader& header, const Storage& storage, const ItkHeader& itk,
+ByteStream open_data(const TextHeader& header, const Storage& storage, const NrrdMeaning& meaning,
                      const fs::path& file) {
     const auto number = [&](const char* spaced, const char* joined) {
         std::string text = header.get(spaced);
@@ -100,10 +77,13 @@ ByteStream open_data(const TextHeader& header, const Storage& storage, const Itk
     const std::uint64_t offset =
         skip_lines(storage.file, storage.offset, number("line skip", "lineskip"));
     const std::int64_t skip = number("byte skip", "byteskip");
+    if (skip < -1)
+        throw InputError(file.string() + ": the header's byte skip is " + std::to_string(skip) +
+                         " but must be -1 or a number of bytes; correct the header");
     std::uint64_t to_skip = static_cast<std::uint64_t>(std::max<std::int64_t>(skip, 0));
     if (skip < 0) {  // the data are what the stream ends with
         const std::uint64_t all = ByteStream(storage.file, storage.coding, offset).drain();
-        to_skip = all - std::min(all, data_bytes(itk));
+        to_skip = all - std::min(all, data_bytes(meaning));
     }
     ByteStream stream(storage.file, storage.coding, offset);
     stream.skip(to_skip, "bytes to skip");
@@ -143,25 +123,18 @@ std::map<std::int32_t, LabelName> segment_names(const TextHeader& header) {
 
 LabelFile read_nrrd(const fs::path& file) {
     const TextHeader header = read_nrrd_header(file);
-    check_spacing_fields(header, file);
-    const Storage storage = find_storage(header, file);
-    const ItkHeader itk = read_itk_header(file);
+    NrrdMeaning meaning = interpret_nrrd(header, file);
     LabelFile result;
-    result.volume.size = itk.size;
-    result.volume.index_to_lps = itk.index_to_lps;
-    result.volume.index_to_lps.affine() *= unit_in_mm(header, file);
-    if (header.get("space directions").empty())
-        result.warnings.push_back(
-            file.string() + (header.get("spacings").empty()
-                                 ? " does not say its spacing; 1 mm was assumed."
-                                 : " says nothing of its place in the patient; its axes were taken "
-                                   "as left, posterior and superior."));
+    result.volume.size = meaning.size;
+    result.volume.index_to_lps = meaning.index_to_lps;
     result.volume.names = segment_names(header);
+    result.warnings = std::move(meaning.warnings);
 
+    const Storage storage = find_storage(header, file);
     const bool stored_big = lower_case(header.get("endian")) == "big";
-    ByteStream stream = open_data(header, storage, itk, file);
-    const ScalarLayout layout{itk.type, stored_big != (std::endian::native == std::endian::big),
-                              storage.ascii, itk.size};
+    ByteStream stream = open_data(header, storage, meaning, file);
+    const ScalarLayout layout{meaning.type, stored_big != (std::endian::native == std::endian::big),
+                              storage.ascii, meaning.size};
     result.volume.values = read_scalars(stream, layout, result.warnings);
     return result;
 }

@@ -79,6 +79,22 @@ std::int64_t whole_number(const std::string& text, const std::string& field, con
     return value;
 }
 
+std::vector<double> parse_numbers(std::string_view text) {
+    std::vector<double> values;
+    for (const char *at = text.data(), *end = at + text.size(); at != end;) {
+        if (std::string_view(" \t,()+").find(*at) != std::string_view::npos) {
+            ++at;
+            continue;
+        }
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc()) break;
+        values.push_back(value);
+        at = next;
+    }
+    return values;
+}
+
 TextHeader read_nrrd_header(const fs::path& file) {
     HeaderLines lines(file);
     std::string line;
@@ -90,7 +106,7 @@ TextHeader read_nrrd_header(const fs::path& file) {
     while (lines.next(line) && !line.empty()) {
         if (line.front() == '#') continue;
         const auto colon = line.find(':');
-        if (colon == std::string::npos) continue;  // ITK complains where it matters
+        if (colon == std::string::npos) continue;  // not a field
         const bool metadata = colon + 1 < line.size() && line[colon + 1] == '=';
         const std::string_view all = line;
         const std::string key(trimmed(all.substr(0, colon)));

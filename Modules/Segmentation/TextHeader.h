@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace myotet::segmentation {
 
@@ -30,6 +31,10 @@ struct TextHeader {
 /// A whole number, or an InputError that names file and field.
 [[nodiscard]] std::int64_t whole_number(const std::string& text, const std::string& field,
                                         const std::filesystem::path& file);
+
+/// The numbers in a text, apart by white space, commas or brackets; what
+/// follows the first thing that is no number is left out.
+[[nodiscard]] std::vector<double> parse_numbers(std::string_view text);
 
 /// The data file that a header names, beside the header; InputError for lists
 /// and patterns of files, IoError when it is missing.

@@ -96,6 +96,10 @@ TEST_F(Nrrd, WarnsWhenThePlaceIsUnknown) {
 TEST_F(Nrrd, RefusesWhatItCannotRead) {
     expect_refused("NRRX0004\n", "does not start with 'NRRD'");
     expect_refused(header(kPlace + "\n", "bzip2") + kData, "bzip2");
+    expect_refused(header(kPlace + "byte skip: -5\n\n") + kData, "byte skip is -5");
+    expect_refused(header("space: LPS\nspace directions: (1,0,0) (0,1,0\n\n") + kData, "(x,y,z)");
+    expect_refused(header("space: LPS\nspace directions: (1,0) (0,1) (1,1)\n\n") + kData, "three");
+    expect_refused(header(kPlace + "space directions: (1,0,0) (0,1,0)\n\n") + kData, "one entry");
     expect_refused(header(kPlace + "data file: LIST\na.raw\n"), "several files");
     expect_refused(header(kPlace + "data file: slice%03d.raw 1 9 1\n"), "several files");
     expect_refused(header(kPlace + "data file: absent.raw\n"), "does not exist");
@@ -112,6 +116,16 @@ TEST_F(Nrrd, RefusesASpacingThatIsNone) {
                    "singular");
     expect_refused(header("space: LPS\nspace directions: (nan,0,0) (0,1,0) (0,0,1)\n\n") + kData,
                    "finite");
+}
+
+TEST_F(Nrrd, TakesASoleLayer) {
+    const LabelFile found = read(
+        "NRRD0004\ntype: uint8\ndimension: 5\nsizes: 1 2 2 2 1\nencoding: raw\n"
+        "space: left-anterior-superior\nspace directions: none (2,0,0) (0,3,0) (0,0,+4e0) none\n"
+        "kinds: list domain domain domain none\nspace origin: (1,2,3)\n\n" +
+        kData);
+    EXPECT_EQ(found.volume.size, (Index3{2, 2, 2}));
+    EXPECT_EQ(found.volume.index_to_lps * Vec3(1, 1, 1), Vec3(3, -5, 7));
 }
 
 TEST_F(Nrrd, RefusesLayers) {
