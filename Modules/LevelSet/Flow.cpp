@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace myotet::levelset {
@@ -76,6 +77,39 @@ std::int64_t step_block(const Band& band, std::size_t b, float step, const Locks
     return stopped;
 }
 
+// A few steps and their redistancing, without leaving the stored blocks.
+std::int64_t flow_for(Band& band, int steps, float step, const Locks& locks, double reach) {
+    const std::size_t blocks = band.position.size();
+    std::vector<float> next(band.values.size());
+    std::vector<std::int64_t> stopped(blocks, 0);
+    for (int s = 0; s < steps; ++s) {
+        parallel_for(0, blocks, 32, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b)
+                stopped[b] += step_block(band, b, step, locks, next.data() + b * Band::kSize);
+        });
+        band.values.swap(next);
+    }
+    next = {};
+    redistance(band, Seeds::scale, 0, reach);
+    return std::accumulate(stopped.begin(), stopped.end(), std::int64_t{0});
+}
+
+// Lays blocks anew around the interface; locks go with their samples.
+void lay_anew(Band& band, const Locks& locks) {
+    Band fresh = refit(band, band.width);
+    if (!locks.of_sample.empty()) {
+        std::vector<std::int8_t> moved(fresh.values.size(), 0);
+        for (std::size_t b = 0; b < fresh.position.size(); ++b)
+            if (const std::int32_t old = band.find(fresh.position[b]); old >= 0)
+                std::copy_n(locks.of_sample.begin() +
+                                static_cast<std::ptrdiff_t>(old) * Band::kSize,
+                            Band::kSize, moved.begin() + b * Band::kSize);
+        locks.of_sample = std::move(moved);
+    }
+    band = std::move(fresh);
+    redistance(band, Seeds::keep_cells, 0);
+}
+
 }  // namespace
 
 double flow_time(double distance) {
@@ -85,33 +119,26 @@ double flow_time(double distance) {
     return distance * distance / (kTip * kTip);
 }
 
-std::int64_t flow_by_mean_curvature(Band& band, double time, const Locks& locks,
-                                    double give_back_radius) {
-    if (!(time > 0)) return 0;
+std::int64_t flow_by_mean_curvature(Band& band, const Locks& locks, const FlowOptions& options,
+                                    const ProgressSink& progress) {
+    if (!(options.time > 0)) return 0;
     // Stable up to b dt = spacing^2 / 4 for this stencil; a fifth keeps kinks calm.
     const double largest = band.spacing * band.spacing / 5;
-    const int steps = static_cast<int>(std::ceil(time / largest));
-    const auto step = static_cast<float>(time / steps / (band.spacing * band.spacing));
-    const std::size_t blocks = band.position.size();
-    std::vector<float> next(band.values.size());
-    std::vector<std::int64_t> stopped(blocks, 0);
+    const int steps = static_cast<int>(std::ceil(options.time / largest));
+    const auto step = static_cast<float>(options.time / steps / (band.spacing * band.spacing));
+    std::int64_t stopped = 0;
     std::vector<float> before;
-    if (give_back_radius > 0) before = band.values;
-    for (int s = 0; s < steps; ++s) {
-        parallel_for(0, blocks, 32, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b)
-                stopped[b] += step_block(band, b, step, locks, next.data() + b * Band::kSize);
-        });
-        band.values.swap(next);
-        if ((s + 1) % kStepsBetweenRedistancing != 0 && s + 1 != steps) continue;
-        redistance(band, Seeds::scale, 0, s + 1 == steps ? band.width : kReach * band.spacing);
-        if (!(give_back_radius > 0)) continue;
-        give_back(band, before, give_back_radius);
-        before = band.values;
+    for (int done = 0; done < steps;) {
+        progress.check();
+        const int now = std::min(kStepsBetweenRedistancing, steps - done);
+        done += now;
+        if (options.wanders) lay_anew(band, locks);
+        if (options.give_back_radius > 0) before = band.values;
+        stopped += flow_for(band, now, step, locks,
+                            done == steps ? band.width : kReach * band.spacing);
+        if (options.give_back_radius > 0) give_back(band, before, options.give_back_radius);
     }
-    std::int64_t sum = 0;
-    for (const std::int64_t n : stopped) sum += n;
-    return sum;
+    return stopped;
 }
 
 }  // namespace myotet::levelset

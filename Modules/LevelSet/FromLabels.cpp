@@ -53,12 +53,14 @@ Allowance allowance_for(const LabelGrid& grid) {
     return allowance;
 }
 
-void smooth_region(const LabelGrid& grid, RegionBand& region) {
-    const double time = flow_time(grid.smooth);
+void smooth_region(const LabelGrid& grid, const ProgressSink& progress, RegionBand& region) {
     const bool bounded = std::isfinite(allowance_for(grid).voxels);
-    const Locks locks{region.locks, region.lock_unit};
-    region.held_back =
-        flow_by_mean_curvature(region.band, bounded ? kLonger * time : time, locks, kGiveBack * grid.smooth) > 0;
+    FlowOptions options;
+    options.time = (bounded ? kLonger : 1) * flow_time(grid.smooth);
+    options.give_back_radius = kGiveBack * grid.smooth;
+    options.wanders = !bounded;
+    region.held_back = flow_by_mean_curvature(region.band, {region.locks, region.lock_unit},
+                                              options, progress) > 0;
 }
 
 Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand& work) {
@@ -107,7 +109,7 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
         work[r] = voxel_band(scene, static_cast<RegionMap::Owner>(r));
     });
     each_region(work.size(), "smoothing", progress,
-                [&](std::size_t r) { smooth_region(grid, work[r]); });
+                [&](std::size_t r) { smooth_region(grid, progress, work[r]); });
 
     progress.report("partition", 0);
     std::vector<double> volumes(work.size(), 0.0);

@@ -14,8 +14,8 @@ namespace myotet::levelset {
 /// How labels become level sets.
 struct LabelOptions {
     /// Sample distance of the isotropic grid, mm; 0 chooses it: the smallest
-    /// voxel side where that is affordable, else as fine as memory lets it, and
-    /// no wider than the geometric mean of the sides.
+    /// voxel side where the work for that is modest (30 s, 0.8 GB by forecast),
+    /// else wider, up to the geometric mean of the sides.
     double spacing = 0;
     /// How far motion by mean curvature may move a sharp voxel corner, mm; 0 is no
     /// smoothing; negative chooses half the largest voxel side: the staircase of a

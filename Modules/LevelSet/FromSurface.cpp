@@ -3,6 +3,7 @@
 
 #include "Core/Errors.h"
 #include "LevelSet/Band.h"
+#include "LevelSet/Flow.h"
 #include "LevelSet/Redistance.h"
 #include "LevelSet/SurfaceBand.h"
 
@@ -19,6 +20,8 @@ constexpr double kHalfWidth = 4;
 // What the conversion of the triangles fills, in samples: both ends of every
 // edge that the surface cuts.
 constexpr double kExactWidth = 1.25;
+// Displacement by smoothing is given back on the scale of this many times it.
+constexpr double kGiveBack = 3;
 
 struct EdgeUse {
     std::int32_t low, high;
@@ -132,6 +135,16 @@ LevelSet from_surface(const TriMesh& surface, const SurfaceOptions& options,
     Band band = surface_band(surface, options.spacing, kExactWidth, progress);
     band = refit(band, static_cast<float>(kHalfWidth * options.spacing));
     redistance(band, Seeds::keep_ends, 2);
+    if (options.smooth > 0) {
+        progress.report("smoothing", 0);
+        std::vector<std::int8_t> none;
+        const FlowOptions flow{.time = flow_time(options.smooth),
+                               .give_back_radius = kGiveBack * options.smooth,
+                               .wanders = true};
+        flow_by_mean_curvature(band, {none, 0}, flow, progress);
+        band = refit(band, static_cast<float>(kHalfWidth * options.spacing));
+        redistance(band, Seeds::keep_cells, 2);
+    }
     progress.report("level sets", 0);
     LevelSet phi = assemble(band);
     progress.report("level sets", 1);
