@@ -3,6 +3,7 @@
 
 add_library(myotet_flags INTERFACE)
 target_compile_options(myotet_flags INTERFACE -Wall -Wextra -Wshadow -Wno-unknown-pragmas
+  -Wno-missing-field-initializers  # designated initialisers name what differs from the defaults
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false alarms of GCC 12 on string sums
 if(MYOTET_NATIVE)
   target_compile_options(myotet_flags INTERFACE -march=native)

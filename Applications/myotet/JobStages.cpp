@@ -79,7 +79,10 @@ std::vector<TissueMesh> mesh_to_size(LabelLevelSets& sets, const Scan& scan,
         const meshing::LevelPlan plan = meshing::plan_levels(sizes);
         progress.note("edge length " + readable(sizes.edge_length) + " mm on the surface, up to " +
                       readable(plan.coarsest_edge) + " mm inside");
-        tissues = mesh_tissues(sets, scan.tissues, sizes, after, progress);
+        // One region's number is known long before its mesh is finished.
+        const bool early = wished_tets > 0 && sets.regions.size() == 1 && tries < kMostTries;
+        tissues = mesh_tissues(sets, scan.tissues, early ? bounded(sizes, wished) : sizes, after,
+                               progress);
         // Refinement that follows compression can miss the number that the
         // candidates had: then a better edge length.
         const double excess = wished_tets > 0 ? count_tets(tissues) / wished : 1;

@@ -31,6 +31,8 @@ constexpr double kBytesPerTet = 200;
 constexpr double kSecondsPerVoxel = 4e-8;
 constexpr double kSecondsPerSample = 3.5e-5;
 constexpr double kSecondsPerTet = 5e-5;
+// Tetrahedra of finished meshes for each of the first candidates: 1.03 to 1.25.
+constexpr double kGrowth = 1.14;
 constexpr double kMostTets = 5e8;  // 32-bit indices and what hangs on them
 
 /// The inside is never finer than the surface.
@@ -106,7 +108,9 @@ meshing::Options choose_sizes(const SizeOptions& asked, const Scan& scan) {
         edge_length = rounded_up(
             std::max(kVoxelsPerEdge * voxel, shortest_edge_for(kMostTetsOfLabels, asked, scan)));
     }
-    return sizes_at(edge_length, asked);
+    meshing::Options sizes = sizes_at(edge_length, asked);
+    if (scan.surface) sizes.components = scan.shells;
+    return sizes;
 }
 
 double level_set_spacing(const meshing::Options& sizes, const Scan& scan) {
@@ -154,7 +158,13 @@ void require_room_for(const Forecast& forecast, double available_bytes) {
 meshing::Options options_for(const levelset::Region& region, meshing::Options sizes) {
     const bool from_labels = region.voxels > 0;
     sizes.volume = from_labels ? region.volume_labels : 0;
-    sizes.components = from_labels ? 1 : 0;
+    if (from_labels) sizes.components = 1;
+    return sizes;
+}
+
+meshing::Options bounded(meshing::Options sizes, double tets) {
+    sizes.least_tets = static_cast<std::int64_t>((1 - kTetsTolerance) * tets);
+    sizes.most_tets = static_cast<std::int64_t>((1 + kTetsTolerance) * tets);
     return sizes;
 }
 
@@ -167,7 +177,8 @@ meshing::Options sizes_for_total(const std::vector<levelset::Region>& regions,
                                  ProgressSink& progress) {
     // A secant search in logarithms, kept within its bracket.
     constexpr int kMostTrials = 12;
-    constexpr double kGoodEnough = 0.5 * kTetsTolerance;  // compression may still change a little
+    constexpr double kGoodEnough = 0.2 * kTetsTolerance;
+    tets /= kGrowth;
     const double unset = std::numeric_limits<double>::quiet_NaN();
     double x = std::log(first_guess.edge_length);
     double best_x = x, best_error = std::numeric_limits<double>::infinity();

@@ -44,11 +44,14 @@ void require_room_for(const Forecast& forecast, double available_bytes);
 /// How one region is meshed with these sizes.
 [[nodiscard]] meshing::Options options_for(const levelset::Region& region, meshing::Options sizes);
 
+/// The same sizes, to be given up early when a region has not about `tets`.
+[[nodiscard]] meshing::Options bounded(meshing::Options sizes, double tets);
+
 /// Sizes that make 1 / `excess` times the tetrahedra, about.
 [[nodiscard]] meshing::Options rescaled(meshing::Options sizes, double excess);
 
 /// The sizes at which all regions together have `tets` tetrahedra within
-/// kTetsTolerance, from lattices and candidates alone; warns when none was found.
+/// kTetsTolerance, as forecast from lattices and first candidates; warns when none was found.
 inline constexpr double kTetsTolerance = 0.1;
 [[nodiscard]] meshing::Options sizes_for_total(const std::vector<levelset::Region>& regions,
                                                const meshing::Options& first_guess, double tets,

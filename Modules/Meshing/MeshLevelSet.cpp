@@ -19,8 +19,8 @@ namespace {
 // surface farther away than this part of the median edge, an aspect ratio.
 constexpr double kFarFault = 0.14, kShapeFault = 4.4;
 // Share of tetrahedra at faults that still counts as a few, and tries to mend them.
-constexpr double kFewFaults = 2e-3;
-constexpr int kFaultRounds = 2;
+constexpr double kFewFaults = 1e-2;
+constexpr int kFaultRounds = 3;
 // Trials of find_edge_length: each costs a candidate.
 constexpr int kSearchTrials = 8;
 // Fitted to the 142 tissues of an arm, a trunk and a knee: how thick the layer of
@@ -195,6 +195,10 @@ Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
     Mesher mesher(phi, options, progress);
     TetMesh mesh = mesher.fit();
     progress.report("selection", 1);
+    const auto tets = static_cast<std::int64_t>(mesh.tets.size());
+    mesher.summary.out_of_bounds =
+        tets < options.least_tets || (options.most_tets > 0 && tets > options.most_tets);
+    if (mesher.summary.out_of_bounds) return {std::move(mesh), std::move(mesher.summary)};
     mesher.polish(mesh);
     for (int round = 0; round < kFaultRounds && mesher.refine_faults(mesh); ++round) {
         mesh = mesher.fit();

@@ -27,6 +27,9 @@ struct Options {
     /// the edge length, then select and compress again; 0: off.
     double distance_factor = 0.08;
     int distance_rounds = 3;           ///< times that this may be done
+    /// Stop after the lattice fits when it has fewer or more tetrahedra than these;
+    /// 0: no bound. The mesh is then valid but not finished.
+    std::int64_t least_tets = 0, most_tets = 0;
     SizingFunction sizing = {};            ///< empty: none
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
@@ -40,6 +43,7 @@ struct Summary {
     int distance_rounds = 0;           ///< times the lattice was refined for the surface distance
     int fault_rounds = 0;              ///< times it was refined at faults of the finished mesh
     std::int64_t candidate_tets = 0;
+    bool out_of_bounds = false;        ///< stopped for Options::least_tets or most_tets
     double volume_offset = 0;          ///< isovalue that the surface was fitted to, mm
     double seconds_lattice = 0, seconds_select = 0, seconds_compress = 0;
     std::vector<std::string> notes;    ///< what a user should know, a sentence each

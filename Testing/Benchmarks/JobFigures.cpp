@@ -49,7 +49,7 @@ void expect_promises(const app::TissueReport& t) {
     EXPECT_EQ(t.topology.interior_edges_joining_boundary_nodes, 0) << t.name;
 }
 
-void expect_classic(const char* file) {
+void expect_classic(const char* file, double processor_seconds) {
     const fs::path input = kData / "surfaces_classic" / file;
     if (!fs::exists(input)) GTEST_SKIP() << input << " is not here";
     const myotet::testing::TemporaryFolder out;
@@ -70,7 +70,7 @@ void expect_classic(const char* file) {
     EXPECT_LE(t.shapes.max_dihedral_deg, kClassic.max_dihedral_deg);
     EXPECT_LE(t.distance.mean, kMeanDistance * edge);
     EXPECT_LE(t.distance.max, kMaxDistance * edge);
-    EXPECT_LE(r.processor_seconds, 10);
+    EXPECT_LE(r.processor_seconds, processor_seconds);
 }
 
 // Each mesh's centroid within a voxel of its label's.
@@ -112,9 +112,10 @@ void expect_scan(const char* file, std::size_t tissues, const app::SizeOptions& 
 
 }  // namespace
 
-TEST(JobFigures, Dragon) { expect_classic("quartet/dragon.obj"); }
-TEST(JobFigures, Skull) { expect_classic("odedstein/skull/skull.obj"); }
-TEST(JobFigures, Armadillo) { expect_classic("odedstein/armadillo/armadillo.obj"); }
+TEST(JobFigures, Dragon) { expect_classic("quartet/dragon.obj", 10); }
+// No time is promised for these; the bound is a fence.
+TEST(JobFigures, Skull) { expect_classic("odedstein/skull/skull.obj", 30); }
+TEST(JobFigures, Armadillo) { expect_classic("odedstein/armadillo/armadillo.obj", 30); }
 
 TEST(JobFigures, ArmAtThreeMillimetres) {
     expect_scan("arm/bp3d_right_ua1.nii.gz", 32, {.edge_length = 3}, 120, 2e9);
