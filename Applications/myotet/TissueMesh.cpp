@@ -18,15 +18,6 @@ namespace {
 using levelset::LabelLevelSets;
 using levelset::Region;
 
-struct RegionMesh {
-    TetMesh mesh;  ///< patient's frame
-    meshing::Summary summary;
-    quality::SurfaceDistance distance;
-    std::size_t boundary_faces = 0;
-    double seconds_check = 0;
-    std::string failure;  ///< why there is no mesh; empty: there is
-};
-
 /// Share of a region's work that each of its stages ends at, as measured.
 struct StageEnd {
     std::string_view stage;
@@ -161,8 +152,10 @@ void note_volume(TissueReport& report) {
                                " % more volume than the input; use a shorter --edge-length");
 }
 
-TissueMesh join(const Tissue& tissue, const std::vector<Region>& regions,
-                std::vector<RegionMesh>& made, double edge_length) {
+}  // namespace
+
+TissueMesh join_regions(const Tissue& tissue, const std::vector<Region>& regions,
+                        std::vector<RegionMesh>& made, double edge_length) {
     TissueMesh whole;
     TissueReport& report = whole.report;
     report.label = tissue.label;
@@ -184,10 +177,10 @@ TissueMesh join(const Tissue& tissue, const std::vector<Region>& regions,
         made[r] = {};
     }
     if (faces > 0) report.distance.mean /= static_cast<double>(faces);
+    measure(whole.mesh, report);
+    note_volume(report);
     return whole;
 }
-
-}  // namespace
 
 std::vector<TissueMesh> mesh_tissues(LabelLevelSets& sets, const std::vector<Tissue>& tissues,
                                      const meshing::Options& sizes, LevelSets after,
@@ -198,9 +191,7 @@ std::vector<TissueMesh> mesh_tissues(LabelLevelSets& sets, const std::vector<Tis
     for (std::size_t t = 0; t < tissues.size(); ++t) {
         progress.check();
         progress.report("checking", static_cast<double>(t) / static_cast<double>(tissues.size()));
-        whole[t] = join(tissues[t], sets.regions, made, sizes.edge_length);
-        measure(whole[t].mesh, whole[t].report);
-        note_volume(whole[t].report);
+        whole[t] = join_regions(tissues[t], sets.regions, made, sizes.edge_length);
     }
     return whole;
 }

@@ -17,6 +17,23 @@ struct TissueMesh {
     TissueReport report;
 };
 
+/// What meshing made of one region.
+struct RegionMesh {
+    TetMesh mesh;  ///< patient's frame
+    meshing::Summary summary;
+    quality::SurfaceDistance distance;
+    std::size_t boundary_faces = 0;
+    double seconds_check = 0;
+    std::string failure;  ///< why there is no mesh; empty: there is
+};
+
+/// Puts the meshes of a tissue's regions together and judges the whole; a
+/// component of at least two edge lengths without mesh breaks a promise, a
+/// thinner one is noted. Empties the elements of `made` that it takes.
+[[nodiscard]] TissueMesh join_regions(const Tissue& tissue,
+                                      const std::vector<levelset::Region>& regions,
+                                      std::vector<RegionMesh>& made, double edge_length);
+
 /// What becomes of the level sets when they were meshed.
 enum class LevelSets { released, kept };
 
