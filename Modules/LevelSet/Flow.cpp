@@ -18,10 +18,11 @@ namespace {
 constexpr int kSide = Band::kSide;
 constexpr int kApron = kSide + 2;
 constexpr int kStepsBetweenRedistancing = 5;
-// In samples: the flow acts in full up to the first and not beyond the second,
-// where a stencil would reach values clamped to the band's width. Corners of
-// cells that the interface cuts, up to sqrt(3) away, must move with it.
-constexpr float kFullSpeed = 1.5f, kNoSpeed = 2.2f;
+// The flow acts in full up to this far from the band's edge, in samples, and
+// fades out to nothing at the edge, where stencils reach clamped values. A
+// narrower window bends the slope near the interface: a sphere then shrinks
+// a tenth too fast.
+constexpr float kFade = 0.7f;
 // What redistancing must renew for that, in samples.
 constexpr double kReach = 2;
 
@@ -55,14 +56,13 @@ std::int64_t step_block(const Band& band, std::size_t b, float step, const Locks
     for (int k = 1; k <= kSide; ++k)
         for (int j = 1; j <= kSide; ++j) {
             const float* row = phi.data() + (k * kApron + j) * kApron + 1;
-            if (std::all_of(row, row + kSide, [](float v) { return std::abs(v) >= kNoSpeed; })) {
+            if (std::all_of(row, row + kSide, [&](float v) { return std::abs(v) >= width; })) {
                 for (int i = 0; i < kSide; ++i, ++at) out[at] = h * row[i];
                 continue;
             }
             for (int i = 0; i < kSide; ++i, ++at) {
                 const float v = row[i];
-                const float speed = std::clamp(
-                    (kNoSpeed - std::abs(v)) / (kNoSpeed - kFullSpeed), 0.0f, 1.0f);
+                const float speed = std::min((width - std::abs(v)) / kFade, 1.0f);
                 const float moved = v + speed * step * curvature_term(row + i);
                 out[at] = h * std::clamp(moved, -width, width);
             }
@@ -115,7 +115,7 @@ void lay_anew(Band& band, const Locks& locks) {
 double flow_time(double distance) {
     // A right angle is carried along by the self-similar solution of curve
     // shortening, its tip moving by kTip * sqrt(b t).
-    constexpr double kTip = 0.84;
+    constexpr double kTip = 1.04;
     return distance * distance / (kTip * kTip);
 }
 

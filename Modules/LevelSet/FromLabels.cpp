@@ -25,7 +25,7 @@ constexpr double kWorkWidth = 3, kResultWidth = 3;
 // The flow lasts longer than a corner needs to reach the allowance, so that
 // the steps of slowly sloping surfaces, several voxels long, are levelled too;
 // locks hold what has arrived.
-constexpr double kLonger = 4;
+constexpr double kLonger = 6;
 // Displacement is given back on the scale of this many times the allowance:
 // three half voxels, beyond the steps and within the shapes they make up.
 constexpr double kGiveBack = 3;
