@@ -13,6 +13,11 @@
 namespace myotet::levelset {
 namespace {
 
+// The staircase of a smooth surface strays half a voxel from it. A little less is
+// undone: at half a voxel, parts one voxel thick lose enough volume to thicker ones
+// beside them to move a tissue's centroid by more than a voxel (a crescent of lung
+// at 3 mm, a tendon of the knee); at 0.4 no tissue's moves so far.
+constexpr double kSmoothOfVoxel = 0.4;
 // Blocks beyond the volume on every side: band, coarse cells and smoothing.
 constexpr int kMarginBlocks = 3;
 
@@ -72,7 +77,7 @@ LabelGrid lay_grid(const LabelVolume& volume, std::span<const SharedWall> walls,
     double area = 0;
     for (const SharedWall& w : walls) area += 2 * w.area;
     const double voxels = static_cast<double>(volume.values.size());
-    grid.smooth = options.smooth < 0 ? 0.5 * side.maxCoeff() : options.smooth;
+    grid.smooth = options.smooth < 0 ? kSmoothOfVoxel * side.maxCoeff() : options.smooth;
     const double h = options.spacing > 0 ? options.spacing
                                          : choose_spacing(area, voxels, grid.smooth, side);
     grid.lattice.spacing = h;

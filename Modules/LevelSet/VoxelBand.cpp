@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kSide = Band::kSide;
 constexpr int kLargestLock = 126;
+constexpr double kRounding = 1e-6;
 
 // What the voxels around a sample say about one owner.
 struct Nearness {
@@ -149,12 +150,12 @@ std::int8_t lock_of(double boxes, bool inside, bool thin, const Allowance& allow
                     const SharedLattice& lattice, double unit) {
     const double allowed = thin ? std::min(allowance.thin_voxels, allowance.voxels)
                                 : allowance.voxels;
+    if (!(boxes >= allowed - kRounding)) return 0;
     // (boxes - allowed) changes by at most 1 / the smallest voxel side a mm, so
-    // that as a bound in mm it asks for no slope above one.
+    // that as a bound in mm it asks for no slope above one. At the allowance's
+    // edge, where for half a voxel its middle lies, the sign alone is held.
     const double bound = (boxes - allowed) * lattice.plane_spacing.minCoeff();
-    if (!(bound > 0)) return 0;
-    int lock = static_cast<int>(std::min(bound / unit, double(kLargestLock)));
-    if (lock == 0) return 0;
+    int lock = std::clamp(static_cast<int>(bound / unit), 2, kLargestLock);
     if (thin != (lock % 2 == 1)) --lock;  // odd: thin
     return static_cast<std::int8_t>(inside ? -lock : lock);
 }
