@@ -86,8 +86,14 @@ std::vector<TissueMesh> mesh_to_size(LabelLevelSets& sets, const Scan& scan,
         // Refinement that follows compression can miss the number that the
         // candidates had: then a better edge length.
         const double excess = wished_tets > 0 ? count_tets(tissues) / wished : 1;
-        if (std::abs(excess - 1) <= kTetsTolerance || tries == kMostTries) break;
+        if (std::abs(excess - 1) <= kTetsTolerance) break;
+        if (tries == kMostTries) {
+            progress.warn("the meshes have " + readable(excess) +
+                          " times the tetrahedra asked for; name an --edge-length instead");
+            break;
+        }
         sizes = rescaled(sizes, excess);
+        tissues.clear();
     }
     count_surface_pieces(scan, tissues);
     return tissues;
