@@ -6,7 +6,7 @@
 #include "JobStages.h"
 #include "Machine.h"
 #include "ReportText.h"
-#include "Stopwatch.h"
+#include "Core/Stopwatch.h"
 
 namespace myotet::app {
 namespace {

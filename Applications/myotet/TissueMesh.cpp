@@ -9,7 +9,7 @@
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Sizing.h"
-#include "Stopwatch.h"
+#include "Core/Stopwatch.h"
 #include "Text.h"
 
 namespace myotet::app {

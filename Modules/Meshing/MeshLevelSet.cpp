@@ -2,15 +2,14 @@
 #include "Meshing/MeshLevelSet.h"
 
 #include "Core/Errors.h"
+#include "Core/Stopwatch.h"
 #include "Meshing/Compress.h"
 #include "Meshing/Refine.h"
 #include "Meshing/Select.h"
 #include "Quality/Quality.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 namespace myotet::meshing {
 namespace {
@@ -21,24 +20,9 @@ constexpr double kFarFault = 0.14, kShapeFault = 4.4;
 // Share of tetrahedra at faults that still counts as a few, and tries to mend them.
 constexpr double kFewFaults = 1e-2;
 constexpr int kFaultRounds = 3;
-// Trials of find_edge_length: each costs a candidate.
-constexpr int kSearchTrials = 8;
 // Fitted to the 142 tissues of an arm, a trunk and a knee: how thick the layer of
 // small tetrahedra is, what grading adds, what thin parts multiply.
 constexpr double kShellEdges = 2.0, kGrading = 1.2, kThinFactor = 3.4, kThinPower = 1.8;
-
-class Stopwatch {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void require(bool holds, const char* field, double value, const char* rule) {
     if (!holds)
@@ -207,49 +191,6 @@ Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
     }
     progress.report("compression", 1);
     return {std::move(mesh), std::move(mesher.summary)};
-}
-
-std::int64_t count_tets(const levelset::LevelSet& phi, const Options& options,
-                        ProgressSink& progress) {
-    options.validate();
-    return static_cast<std::int64_t>(Mesher(phi, options, progress).fit().tets.size());
-}
-
-double find_edge_length(double tets, double guess, double tolerance,
-                        const std::function<double(double)>& count) {
-    require(tets >= 1, "number of tetrahedra", tets, "it must be at least 1");
-    // Counts fall like a power of the edge length, between the square (all tetrahedra
-    // at the surface) and the cube; the exponent is learnt from the last two trials.
-    double edge = guess, best = guess, best_miss = std::numeric_limits<double>::infinity();
-    double exponent = 2.5, last_edge = 0, last_count = 0;
-    for (int trial = 0; trial < kSearchTrials; ++trial) {
-        const double found = count(edge);
-        const double miss = std::abs(found / tets - 1);
-        if (miss < best_miss) {
-            best_miss = miss;
-            best = edge;
-        }
-        if (best_miss <= tolerance) break;
-        if (last_edge > 0 && edge != last_edge && found != last_count)
-            exponent = std::clamp(
-                -std::log(found / last_count) / std::log(edge / last_edge), 1.5, 4.0);
-        last_edge = edge;
-        last_count = found;
-        edge *= std::pow(found / tets, 1 / exponent);
-    }
-    return best;
-}
-
-double edge_length_for(const levelset::LevelSet& phi, double tets, Options options,
-                       double tolerance, ProgressSink& progress) {
-    const double interior = options.interior_edge_length / options.edge_length;
-    const double smallest = options.smallest_edge_length / options.edge_length;
-    return find_edge_length(tets, options.edge_length, tolerance, [&](double edge) {
-        options.edge_length = edge;
-        options.interior_edge_length = interior * edge;
-        options.smallest_edge_length = smallest * edge;
-        return static_cast<double>(count_tets(phi, options, progress));
-    });
 }
 
 double forecast_tets(double volume, double area, const Options& options) {

@@ -65,19 +65,4 @@ struct Result {
 /// About how many tetrahedra a call would make, from volume and surface alone.
 [[nodiscard]] double forecast_tets(double volume, double area, const Options& options);
 
-/// How many tetrahedra mesh_level_set makes: everything but the last, longest
-/// part of the compression.
-[[nodiscard]] std::int64_t count_tets(const levelset::LevelSet& phi, const Options& options,
-                                      ProgressSink& progress);
-
-/// The edge length, mm, at which count(edge length) is `tets` within `tolerance`
-/// (relative), or the nearest found in eight trials from `guess`.
-[[nodiscard]] double find_edge_length(double tets, double guess, double tolerance,
-                                      const std::function<double(double)>& count);
-
-/// The same for one level set; starts from options.edge_length, and keeps the
-/// options' ratios of interior and smallest to surface edge.
-[[nodiscard]] double edge_length_for(const levelset::LevelSet& phi, double tets, Options options,
-                                     double tolerance, ProgressSink& progress);
-
 }  // namespace myotet::meshing

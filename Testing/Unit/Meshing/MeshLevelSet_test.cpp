@@ -152,12 +152,22 @@ TEST(MeshLevelSet, CurvatureAndSizingRefine) {
     EXPECT_GT(at_right, right.tets.size() * 3 / 4);
 }
 
-TEST(FindEdgeLength, ReachesTheNumberAskedFor) {
+TEST(MeshLevelSet, BoundsOnTheNumberStopEarlyWithAValidMesh) {
     const auto phi = sample_level_set(cube(14), 0.5, torus);
-    constexpr double asked = 9000, tolerance = 0.1;
-    const double edge = edge_length_for(phi, asked, {.edge_length = 4}, tolerance, quiet);
-    const Result r = mesh_level_set(phi, {.edge_length = edge}, quiet);
-    EXPECT_NEAR(static_cast<double>(r.mesh.tets.size()) / asked, 1, tolerance);
+    const Options free{.edge_length = 2};
+    const auto tets = static_cast<std::int64_t>(mesh_level_set(phi, free, quiet).mesh.tets.size());
+    Options bounded = free;
+    bounded.least_tets = tets / 2;
+    bounded.most_tets = 2 * tets;
+    EXPECT_FALSE(mesh_level_set(phi, bounded, quiet).summary.out_of_bounds);
+    bounded.least_tets = 2 * tets;
+    bounded.most_tets = 3 * tets;
+    const Result few = mesh_level_set(phi, bounded, quiet);
+    EXPECT_TRUE(few.summary.out_of_bounds);
+    expect_promises(few.mesh);
+    bounded.least_tets = 0;
+    bounded.most_tets = tets / 2;
+    EXPECT_TRUE(mesh_level_set(phi, bounded, quiet).summary.out_of_bounds);
 }
 
 TEST(ForecastTets, IsOfTheRightOrder) {

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace myotet::app {
+namespace myotet {
 
 /// Wall-clock seconds from lap to lap.
 class Stopwatch {
@@ -19,4 +19,4 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace myotet::app
+}  // namespace myotet
