@@ -5,6 +5,7 @@
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
@@ -79,6 +80,7 @@ void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& l
         vtkNew<vtkXMLUnstructuredGridWriter> writer;
         vtkNew<vtkCallbackCommand> hear;  // an observed error is not printed
         writer->AddObserver(vtkCommand::ErrorEvent, hear);
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // but logged all the same
         writer->SetInputData(grid);
         writer->SetFileName(temporary.c_str());
         writer->SetDataModeToAppended();
