@@ -16,20 +16,21 @@ using lattice::RedTet;
 // so the wish is heard in the first rounds and then given up.
 constexpr int kWishRounds = 3;
 
-// Red tetrahedra that hold a troubled edge, or any edge at a troubled node.
+// Red tetrahedra that hold a troubled edge, or any edge at a troubled or left-out
+// node.
 std::vector<RedTet> reds_at(const Selection& selection, const lattice::LatticeMesh& mesh,
                             const Trouble& trouble) {
     std::vector<char> node(selection.node_count(), 0);
     for (const std::int32_t n : trouble.nodes) node[n] = 1;
+    for (const std::int32_t n : trouble.left_out) node[n] = 2;
     std::vector<RedTet> reds;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        if (!selection.in_mesh(t)) continue;
         const Tet& tet = mesh.tets[t];
         bool hit = false;
         for (int i = 0; i < 4 && !hit; ++i) {
-            hit = node[tet[i]] != 0;
+            hit = node[tet[i]] == 2 || (node[tet[i]] == 1 && selection.in_mesh(t));
             for (int j = i + 1; j < 4 && !hit; ++j)
-                hit = trouble.holds_edge(tet[i], tet[j]);
+                hit = selection.in_mesh(t) && trouble.holds_edge(tet[i], tet[j]);
         }
         if (hit) reds.push_back(mesh.red[t]);
     }

@@ -11,6 +11,10 @@
 namespace myotet::meshing {
 namespace {
 
+// A node this part of its longest edge deep is inside for good: a tube as thick as
+// the edges has such nodes all along.
+constexpr double kWellInside = 0.15;
+
 using Edge = std::array<std::int32_t, 2>;
 
 // An edge must be this far inside before it crosses [Teran05, sec. 6].
@@ -159,8 +163,24 @@ Trouble Selection::examine(bool avoid_three_faces) const {
             }
     }
     sort_unique(trouble.edges);
+    find_left_out(trouble);
     trouble.only_wishes = trouble.nodes.empty() && trouble.edges.empty();
     return trouble;
+}
+
+void Selection::find_left_out(Trouble& trouble) const {
+    for (std::int32_t n = 0; n < static_cast<std::int32_t>(phi_.size()); ++n) {
+        if (!(phi_[n] < 0) || hull_[n] || star(n).empty()) continue;
+        double longest = 0;
+        bool selected = false;
+        for (const std::int32_t t : star(n)) {
+            selected = selected || in_mesh_[t];
+            if (selected) break;
+            for (const std::int32_t m : tets_[t])
+                longest = std::max(longest, (position_(m) - position_(n)).norm());
+        }
+        if (!selected && phi_[n] < -kWellInside * longest) trouble.left_out.push_back(n);
+    }
 }
 
 std::size_t Selection::envelop(const Trouble& trouble) {
@@ -172,6 +192,7 @@ std::size_t Selection::envelop(const Trouble& trouble) {
         if (enveloped_[deeper] || enveloped_[other]) continue;  // done by an edge before
         added += envelop_node(deeper) || envelop_node(other);
     }
+    for (const std::int32_t n : trouble.left_out) added += envelop_node(n);
     for (const std::int32_t n : trouble.wishes) added += envelop_node(n);
     return added;
 }

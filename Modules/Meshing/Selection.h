@@ -13,11 +13,12 @@ namespace myotet::meshing {
 struct Trouble {
     std::vector<std::int32_t> nodes;                  ///< non-manifold boundary nodes
     std::vector<std::array<std::int32_t, 2>> edges;   ///< interior edges between boundary nodes, sorted
+    std::vector<std::int32_t> left_out;               ///< nodes well inside, in no selected tetrahedron
     std::vector<std::int32_t> wishes;                 ///< boundary nodes with three faces
     bool only_wishes = false;                         ///< nothing but wishes is left
 
     [[nodiscard]] bool empty() const {
-        return nodes.empty() && edges.empty() && wishes.empty();
+        return nodes.empty() && edges.empty() && left_out.empty() && wishes.empty();
     }
     [[nodiscard]] bool holds_edge(std::int32_t a, std::int32_t b) const;
 };
@@ -48,6 +49,7 @@ public:
 
 private:
     bool envelop_node(std::int32_t node);
+    void find_left_out(Trouble& trouble) const;
     [[nodiscard]] std::span<const std::int32_t> star(std::int32_t node) const {
         return {star_.data() + star_start_[node], star_.data() + star_start_[node + 1]};
     }
