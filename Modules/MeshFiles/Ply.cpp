@@ -75,7 +75,11 @@ Header read_header(TextReader& text, const std::filesystem::path& file) {
     if (!text.next_line() || text.word() != "ply") text.fail("does not begin with ply");
     while (text.next_line()) {
         const std::string_view keyword = text.word();
-        if (keyword == "end_header") return header;
+        if (keyword == "end_header") {
+            // An element without properties takes no bytes, however many there are.
+            std::erase_if(header.elements, [](const Element& e) { return e.properties.empty(); });
+            return header;
+        }
         if (keyword == "format") header.layout = read_layout(text);
         if (keyword == "comment" && header.space.empty()) header.space = space_said_by(text.rest());
         if (keyword == "element") {

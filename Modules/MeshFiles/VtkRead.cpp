@@ -12,6 +12,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <exception>
 #include <mutex>
 
 #include "Core/Errors.h"
@@ -77,11 +78,16 @@ auto read_with(const std::filesystem::path& file) {
     Listening listening;
     const auto reader = vtkSmartPointer<Reader>::New();
     reader->SetFileName(file.c_str());
-    reader->Update();
-    const std::string said = listening.heard();
-    if (!said.empty() || reader->GetErrorCode() != 0)
-        throw IoError(file.string() + ": cannot be read whole (" +
-                      (said.empty() ? "the reader gives no reason" : gist(said)) +
+    std::string reason;
+    try {
+        reader->Update();
+        reason = gist(listening.heard());
+        if (reason.empty() && reader->GetErrorCode() != 0) reason = "the reader gives no reason";
+    } catch (const std::exception& error) {
+        reason = error.what();  // a damaged size asks for more memory than there is
+    }
+    if (!reason.empty())
+        throw IoError(file.string() + ": cannot be read whole (" + reason +
                       "); the file is cut short or damaged, copy or export it again");
     return vtkSmartPointer(reader->GetOutput());
 }

@@ -218,6 +218,13 @@ TEST(ReadSurface, BinaryPlyOfBothByteOrders) {
     }
 }
 
+TEST(ReadSurface, PlyElementsWithoutPropertiesAreNotCounted) {
+    EXPECT_THAT(complaint("a.ply",
+                          "ply\nformat binary_little_endian 1.0\n"
+                          "element vertex 1000000000000000000\nend_header\n"),
+                HasSubstr("holds no triangles"));
+}
+
 TEST(ReadSurface, BrokenVtpIsRefused) {
     EXPECT_THAT(complaint("a.vtp", replaced(kVtp, "1 2 3</", "1 2 4</")), HasSubstr("point 4"));
     EXPECT_NE(complaint("a.vtp", replaced(kVtp, "3 6 9 12", "3 6 9 99")), "no complaint");
