@@ -13,7 +13,6 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <exception>
-#include <fstream>
 #include <mutex>
 
 #include "Core/Errors.h"
@@ -73,27 +72,9 @@ std::string gist(const std::string& said) {
     return said.substr(start, said.find('\n', start) - start);
 }
 
-/// VTK 9.1 crashes on a compressor that it does not know.
-void require_known_compressor(const std::filesystem::path& file) {
-    constexpr std::size_t kHead = 1024;  // the attribute stands in the first element
-    constexpr std::string_view kKey = "compressor=\"";
-    std::string head(kHead, '\0');
-    std::ifstream(file, std::ios::binary).read(head.data(), kHead);
-    const std::size_t at = head.find(kKey);
-    if (at == std::string::npos) return;
-    const std::size_t from = at + kKey.size();
-    const std::string named = head.substr(from, head.find('"', from) - from);
-    for (const char* known :
-         {"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"})
-        if (named == known) return;
-    throw InputError(file.string() + ": is packed by '" + named +
-                     "', which is not known; write it with zlib");
-}
-
 /// Runs a VTK reader and throws IoError when it complains.
 template <class Reader>
 auto read_with(const std::filesystem::path& file) {
-    require_known_compressor(file);
     Listening listening;
     const auto reader = vtkSmartPointer<Reader>::New();
     reader->SetFileName(file.c_str());

@@ -288,8 +288,6 @@ TEST(Vtu, BrokenFilesAreRefusedInSilence) {
         write_bytes(folder / "cut.vtu", bytes.substr(0, length));
         EXPECT_THROW((void)read_vtu(folder / "cut.vtu"), Error) << length;
     }
-    write_bytes(folder / "packed.vtu", replaced(bytes, "vtkZLib", "vtkZLob"));
-    EXPECT_THROW((void)read_vtu(folder / "packed.vtu"), InputError);
     EXPECT_THROW((void)read_vtu(folder / "absent.vtu"), IoError);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
