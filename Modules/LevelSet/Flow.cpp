@@ -119,6 +119,12 @@ double flow_time(double distance) {
     return distance * distance / (kTip * kTip);
 }
 
+void apply_locks(Band& band, const Locks& locks) {
+    const float unit = static_cast<float>(locks.unit);
+    for (std::size_t i = 0; i < locks.of_sample.size(); ++i)
+        band.values[i] = locked(band.values[i], locks.of_sample[i], unit);
+}
+
 std::int64_t flow_by_mean_curvature(Band& band, const Locks& locks, const FlowOptions& options,
                                     const ProgressSink& progress) {
     if (!(options.time > 0)) return 0;
@@ -126,6 +132,7 @@ std::int64_t flow_by_mean_curvature(Band& band, const Locks& locks, const FlowOp
     const double largest = band.spacing * band.spacing / 5;
     const int steps = static_cast<int>(std::ceil(options.time / largest));
     const auto step = static_cast<float>(options.time / steps / (band.spacing * band.spacing));
+    const bool keep_volume = options.give_back_radius > 0;
     std::int64_t stopped = 0;
     std::vector<float> before;
     for (int done = 0; done < steps;) {
@@ -133,10 +140,10 @@ std::int64_t flow_by_mean_curvature(Band& band, const Locks& locks, const FlowOp
         const int now = std::min(kStepsBetweenRedistancing, steps - done);
         done += now;
         if (options.wanders) lay_anew(band, locks);
-        if (options.give_back_radius > 0) before = band.values;
+        if (keep_volume) before = band.values;
         stopped += flow_for(band, now, step, locks,
                             done == steps ? band.width : kReach * band.spacing);
-        if (options.give_back_radius > 0) give_back(band, before, options.give_back_radius);
+        if (keep_volume) give_back(band, before, options.give_back_radius);
     }
     return stopped;
 }

@@ -27,6 +27,9 @@ struct FlowOptions {
     bool wanders = false;
 };
 
+/// Lets each locked sample have no value that its lock forbids.
+void apply_locks(Band& band, const Locks& locks);
+
 /// Motion by mean curvature, phi_t = b kappa |grad phi| with kappa = k1 + k2
 /// (a sphere's radius obeys R^2 = R0^2 - 4 b t), with redistancing every few
 /// explicit steps [Teran05, sec. 5]. Returns how many times a lock due to a

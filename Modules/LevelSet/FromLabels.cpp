@@ -10,6 +10,7 @@
 #include "LevelSet/Redistance.h"
 #include "LevelSet/RegionMap.h"
 #include "LevelSet/VoxelBand.h"
+#include "LevelSet/VoxelVolume.h"
 
 #include <algorithm>
 #include <atomic>
@@ -29,6 +30,10 @@ constexpr double kLonger = 6;
 // Displacement is given back on the scale of this many times the allowance:
 // three half voxels, beyond the steps and within the shapes they make up.
 constexpr double kGiveBack = 3;
+// Volume is restored on the scale of this many times the allowance: beyond the
+// steps of slowly sloping surfaces, so that they do not come back, and short
+// enough that no tissue's centroid moves by a voxel.
+constexpr double kRestore = 5;
 
 // Regions one by one on as many threads as there are, with progress. Each
 // result depends on its region alone.
@@ -61,6 +66,24 @@ void smooth_region(const LabelGrid& grid, const ProgressSink& progress, RegionBa
     options.wanders = !bounded;
     region.held_back = flow_by_mean_curvature(region.band, {region.locks, region.lock_unit},
                                               options, progress) > 0;
+}
+
+// By region: its voxels' volume, in all and cell by cell.
+WantedVolumes wanted_volumes(const VoxelScene& scene, const LabelGrid& grid,
+                             const std::vector<RegionBand>& work) {
+    WantedVolumes wanted;
+    const double voxel = std::abs(scene.lattice.local_to_index.inverse().linear().determinant());
+    wanted.total.assign(work.size(), 0.0);
+    for (std::size_t r = 1; r < work.size(); ++r)
+        wanted.total[r] = static_cast<double>(scene.map.regions[r - 1].voxels) * voxel;
+    if (!(grid.smooth > 0) || !std::isfinite(scene.allowance.voxels)) return wanted;
+    wanted.radius = kRestore * grid.smooth;
+    wanted.cells.resize(work.size());
+    parallel_for(0, work.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t r = first; r < last; ++r)
+            wanted.cells[r] = voxel_volumes(scene, static_cast<RegionMap::Owner>(r), work[r]);
+    });
+    return wanted;
 }
 
 Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand& work) {
@@ -112,10 +135,7 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
                 [&](std::size_t r) { smooth_region(grid, progress, work[r]); });
 
     progress.report("partition", 0);
-    std::vector<double> volumes(work.size(), 0.0);
-    for (std::size_t r = 1; r < work.size(); ++r)
-        volumes[r] = static_cast<double>(map.regions[r - 1].voxels) * volume.voxel_volume();
-    make_partition(work, map, grid.lattice, walls, volumes, progress);
+    make_partition(work, map, grid.lattice, walls, wanted_volumes(scene, grid, work), progress);
     progress.report("partition", 1);
 
     LabelLevelSets out;

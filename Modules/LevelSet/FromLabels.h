@@ -18,10 +18,10 @@ struct LabelOptions {
     /// else wider, up to the geometric mean of the sides.
     double spacing = 0;
     /// How far motion by mean curvature may move a sharp voxel corner, mm; 0 is no
-    /// smoothing; negative chooses 0.4 of the largest voxel side: a little less
-    /// than the half side by which the staircase of a smooth surface strays from it,
-    /// so that parts one voxel thick keep their volume where it is. Across shorter
-    /// sides of a voxel the bound is shorter in proportion.
+    /// smoothing; negative chooses half the largest voxel side: the staircase of a
+    /// smooth surface strays that far from it, and no more needs undoing. Up to one
+    /// side it is a bound, shorter across a voxel's shorter sides in proportion;
+    /// beyond, it sets the duration of the flow alone.
     double smooth = -1;
     /// Bytes the work may hold at its peak, the result included.
     double max_memory = 8e9;

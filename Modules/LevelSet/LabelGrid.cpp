@@ -13,11 +13,10 @@
 namespace myotet::levelset {
 namespace {
 
-// The staircase of a smooth surface strays half a voxel from it. A little less is
-// undone: at half a voxel, parts one voxel thick lose enough volume to thicker ones
-// beside them to move a tissue's centroid by more than a voxel (a crescent of lung
-// at 3 mm, a tendon of the knee); at 0.4 no tissue's moves so far.
-constexpr double kSmoothOfVoxel = 0.4;
+// The staircase of a smooth surface strays half a voxel from it; no more needs
+// undoing, and with less the voxels' middles would be pushed off the surface
+// that they may lie on.
+constexpr double kSmoothOfVoxel = 0.5;
 // Blocks beyond the volume on every side: band, coarse cells and smoothing.
 constexpr int kMarginBlocks = 3;
 

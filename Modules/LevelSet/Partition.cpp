@@ -2,6 +2,7 @@
 #include "LevelSet/Partition.h"
 
 #include "Core/Parallel.h"
+#include "LevelSet/Flow.h"
 #include "LevelSet/Measure.h"
 #include "LevelSet/Offsets.h"
 
@@ -135,8 +136,14 @@ void partition_place(const std::vector<RegionBand>& regions, const Places& place
     for (int i = 0; i < samples; ++i) work.shift[i] = 0.5f * (work.shift[i] + second[i]);
 }
 
-double inside_cells(const Patch& phi, const Patch& shift) {
-    double sum = 0;
+constexpr int kCells = 8;  // of volumes, a block
+using Part = std::array<float, kCells>;
+
+// Volume of the partitioned region in each cell of a place, mm^3.
+Part inside_cells(const Patch& phi, const Patch& shift, double sample_volume) {
+    constexpr int half = kSide / kVolumeStep;
+    static_assert(half * half * half == kCells);
+    std::array<double, kCells> sum{};
     for (int k = 0; k < kSide; ++k)
         for (int j = 0; j < kSide; ++j)
             for (int i = 0; i < kSide; ++i) {
@@ -146,16 +153,19 @@ double inside_cells(const Patch& phi, const Patch& shift) {
                         ((k + (c >> 2)) * kSamples + j + (c >> 1 & 1)) * kSamples + i + (c & 1);
                     corner[c] = phi[at] - shift[at];
                 }
-                sum += inside_fraction(corner);
+                sum[(k / kVolumeStep * half + j / kVolumeStep) * half + i / kVolumeStep] +=
+                    inside_fraction(corner);
             }
-    return sum;
+    Part part;
+    for (int c = 0; c < kCells; ++c) part[c] = static_cast<float>(sum[c] * sample_volume);
+    return part;
 }
 
 // The volume of every region, mm^3. `part` keeps what each place holds of each
 // region; only places with a region that `moved` are measured again.
 std::vector<double> measure(const std::vector<RegionBand>& regions, const Places& places,
                             std::span<const double> offset, const std::vector<char>& moved,
-                            std::vector<double>& part) {
+                            std::vector<Part>& part) {
     const double cell = std::pow(regions[0].band.spacing, 3);
     parallel_for(0, places.places.size(), kGrain, [&](std::size_t first, std::size_t last) {
         Scratch work;
@@ -167,11 +177,12 @@ std::vector<double> measure(const std::vector<RegionBand>& regions, const Places
                 continue;
             partition_place(regions, places, place, offset, 1, work);
             for (std::size_t n = 0; n < place.last - place.first; ++n)
-                part[place.first + n] = cell * inside_cells(work.phi[n], work.shift);
+                part[place.first + n] = inside_cells(work.phi[n], work.shift, cell);
         }
     });
     std::vector<double> volume = places.full;
-    for (std::size_t i = 0; i < part.size(); ++i) volume[places.region[i]] += part[i];
+    for (std::size_t i = 0; i < part.size(); ++i)
+        for (const float v : part[i]) volume[places.region[i]] += v;
     return volume;
 }
 
@@ -216,16 +227,46 @@ std::vector<SharedWall> shared_walls(const RegionMap& map, const Vec3& face_area
     return walls;
 }
 
+namespace {
+
+// Each region gains what it misses near each place, were the partition made now.
+void restore_cells(std::vector<RegionBand>& regions, const Places& places,
+                   const WantedVolumes& wanted, std::vector<Part>& part) {
+    const std::vector<double> none(regions.size(), 0.0);
+    measure(regions, places, none, std::vector<char>(regions.size(), 1), part);
+    std::vector<CellVolumes> missing = wanted.cells;
+    for (const Place& place : places.places)
+        for (std::size_t n = place.first; n < place.last; ++n) {
+            const int r = places.region[n];
+            const std::int32_t block = regions[r].band.find(local(regions[r], place.block));
+            if (block < 0) continue;
+            for (int c = 0; c < kCells; ++c) missing[r][block][c] -= part[n][c];
+        }
+    parallel_for(0, regions.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t r = first; r < last; ++r) {
+            restore_volume(regions[r].band, missing[r], wanted.radius);
+            apply_locks(regions[r].band, {regions[r].locks, regions[r].lock_unit});
+        }
+    });
+}
+
+}  // namespace
+
 PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
                                 const SharedLattice& lattice, std::span<const SharedWall> walls,
-                                std::span<const double> volume, const ProgressSink& progress) {
-    constexpr int kMostIterations = 12;
+                                const WantedVolumes& wanted, const ProgressSink& progress) {
+    constexpr int kRestoring = 3, kMostIterations = 12;
     constexpr double kGoodEnough = 1e-3;
     const std::size_t count = regions.size();
     const Places places = find_places(regions, map, lattice);
+    std::vector<Part> part(places.region.size());
+    for (int round = 0; round < (wanted.cells.empty() ? 0 : kRestoring); ++round) {
+        progress.check();
+        restore_cells(regions, places, wanted, part);
+    }
     PartitionSummary summary;
     summary.offset.assign(count, 0.0);
-    std::vector<double> part(places.region.size()), before(count), asked(count, 0.0);
+    std::vector<double> before(count), asked(count, 0.0);
     std::vector<double> answer(count, 1.0);  // volume gained for volume asked
     std::vector<char> moved(count, 1);
     while (true) {
@@ -234,12 +275,12 @@ PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMa
         std::vector<double> missing(count, 0.0);
         summary.largest_error = 0;
         for (std::size_t r = 1; r < count; ++r) {
-            const double error = std::abs(volume[r] - now[r]) / volume[r];
+            const double total = wanted.total[r], error = std::abs(total - now[r]) / total;
             summary.largest_error = std::max(summary.largest_error, error);
             // Small regions answer less than their walls' area promises.
-            if (summary.iterations > 0 && std::abs(asked[r]) > 1e-3 * volume[r])
+            if (summary.iterations > 0 && std::abs(asked[r]) > 1e-3 * total)
                 answer[r] = std::clamp((now[r] - before[r]) / asked[r], 0.25, 1.5);
-            if (error > kGoodEnough) missing[r] = (volume[r] - now[r]) / answer[r];
+            if (error > kGoodEnough) missing[r] = (total - now[r]) / answer[r];
         }
         if (summary.largest_error < kGoodEnough || summary.iterations == kMostIterations) break;
         ++summary.iterations;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "LevelSet/GiveBack.h"
 #include "LevelSet/VoxelBand.h"
 
 #include "Core/Progress.h"
@@ -20,21 +21,30 @@ struct SharedWall {
 [[nodiscard]] std::vector<SharedWall> shared_walls(const RegionMap& map,
                                                    const Vec3& face_area);
 
+/// What each region is to enclose after the partition, mm^3. The background,
+/// number 0, gets what remains.
+struct WantedVolumes {
+    std::vector<double> total;        ///< per region
+    std::vector<CellVolumes> cells;   ///< per region, in its stored blocks; empty: totals only
+    double radius = 0;                ///< mm over which the cells' volumes are to be met
+};
+
 /// What make_partition did.
 struct PartitionSummary {
     int iterations = 0;
-    double largest_error = 0;         ///< relative volume error left, over all regions
-    std::vector<double> offset;       ///< per region, added to its phi, mm
+    double largest_error = 0;         ///< relative error left in a total, over all regions
+    std::vector<double> offset;       ///< per region, added to its phi in the end, mm
 };
 
 /// Makes the regions (number 0 the background) a partition: where a <= b are
 /// the two smallest values at a sample, (a + b) / 2 is subtracted from all, so
 /// that touching regions share one wall and nothing is claimed twice or left
-/// over (Losasso, Shinar, Selle, Fedkiw 2006). Before that a constant offset
-/// is added to each region, found together for all, so that the partition
-/// encloses `volume[r]` (mm^3; the background's is what remains). Locks hold.
+/// over (Losasso, Shinar, Selle, Fedkiw 2006). Before that each region's
+/// volume is restored, as the partition will measure it: place by place in a
+/// few rounds, then in total by constant offsets found together for all.
+/// Locks hold throughout. Throws Interrupted.
 PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
                                 const SharedLattice& lattice, std::span<const SharedWall> walls,
-                                std::span<const double> volume, const ProgressSink& progress);
+                                const WantedVolumes& wanted, const ProgressSink& progress);
 
 }  // namespace myotet::levelset

@@ -4,6 +4,7 @@
 #include "Core/Components.h"
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "LevelSet/Necks.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -157,6 +158,7 @@ void mark_thin(RegionMap& map) {
     each_voxel(map, [&](int i, int j, int k, std::size_t at) {
         if (!covered[at] && any_near(map, far, {i, j, k}, 3)) map.flags[at] |= RegionMap::kThin;
     });
+    mark_necks(map, covered);
 }
 
 }  // namespace

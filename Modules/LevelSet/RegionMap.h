@@ -22,7 +22,7 @@ struct VoxelRegion {
 struct RegionMap {
     using Owner = std::uint16_t;
     static constexpr std::uint8_t kCore = 1;  ///< all 27 voxels around have the same owner
-    static constexpr std::uint8_t kThin = 2;  ///< belongs to a sheet, tube or speck
+    static constexpr std::uint8_t kThin = 2;  ///< belongs to a sheet, tube, speck or neck
 
     Index3 size{0, 0, 0};
     std::vector<Owner> owner;          ///< per voxel, i fastest
@@ -42,8 +42,8 @@ struct RegionMap {
 
 /// Finds the components of the asked labels and marks what is thin: voxels
 /// that no block of 3 x 3 x 3 voxels of their owner covers, in parts that
-/// reach at least three voxels away from what such blocks cover. Bumps and
-/// the rims of steps are not thin in this sense; they are what smoothing is
+/// reach at least three voxels away from what such blocks cover, or that join
+/// two parts of it. Bumps and the rims of steps are not thin in this sense; they are what smoothing is
 /// for. The background is judged like any other owner.
 /// Throws InputError when a label is 0 or not in the volume, ResourceError
 /// when there are more components than owners can be numbered.

@@ -2,6 +2,7 @@
 #include "LevelSet/GiveBack.h"
 
 #include "BandShapes.h"
+#include "LevelSet/Measure.h"
 #include "SurfaceShapes.h"
 
 #include <gtest/gtest.h>
@@ -29,6 +30,27 @@ TEST(GiveBack, ripples_below_the_radius_are_left_as_the_flow_made_them) {
     // Flat before and after: nothing of the ripple, 0.4 high, comes back.
     for (double x = 10; x < 22; x += 0.7)
         EXPECT_NEAR(sample(band, {x, 16, 16}).value, 0, 0.1) << x;
+}
+
+TEST(GiveBack, missing_volume_is_gained_where_it_is_missing) {
+    const Band before = test::make_band(test::sphere_field(kCentre, 9), 4, 1);
+    // A tenth of a sample all over one half, in cells of four samples a side.
+    CellVolumes missing(before.position.size(), std::array<float, 8>{});
+    double sum = 0;
+    for (std::size_t b = 0; b < before.position.size(); ++b)
+        for (int at = 0; at < Band::kSize; ++at) {
+            const Index3 p = before.position[b];
+            const Vec3 x(8 * p[0] + at % 8, 8 * p[1] + at / 8 % 8, 8 * p[2] + at / 64);
+            if (std::abs((x - kCentre).norm() - 9) > 0.5 || x.x() > kCentre.x()) continue;
+            missing[b][(at / 256 * 2 + at / 32 % 2) * 2 + at / 4 % 2] += 0.1f;
+            sum += 0.1;
+        }
+    Band after = before;
+    restore_volume(after, missing, 2);
+    const double gained = enclosed_volume(assemble(after)) - enclosed_volume(assemble(before));
+    EXPECT_NEAR(gained, sum, 0.15 * sum);
+    EXPECT_NEAR(sample(after, kCentre - 9 * Vec3::UnitX()).value, -0.1, 0.03);
+    EXPECT_NEAR(sample(after, kCentre + 9 * Vec3::UnitX()).value, 0, 0.02);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(Partition, gives_volumes_and_leaves_neither_gap_nor_overlap) {
     // A tenth more than the voxels for the inner region.
     const std::vector<double> wanted{0, 1.1 * 4 * 4 * 8, 10 * 10 * 20.0 - 4 * 4 * 8};
     SilentProgress silent;
-    const auto summary = make_partition(regions, map, grid.lattice, walls, wanted, silent);
+    const auto summary = make_partition(regions, map, grid.lattice, walls, {wanted, {}, 0}, silent);
     EXPECT_LT(summary.largest_error, 1e-3);
     // Two smallest values at every sample: opposite.
     for (int k = 3; k < 40; ++k)
