@@ -3,10 +3,10 @@
 
 #include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
+#include "Core/Stopwatch.h"
 #include "JobStages.h"
 #include "Machine.h"
 #include "ReportText.h"
-#include "Core/Stopwatch.h"
 
 namespace myotet::app {
 namespace {

@@ -92,21 +92,23 @@ Scan read_label_scan(const JobOptions& options) {
     if (!options.input_unit.empty())
         throw UsageError("--input-unit: " + options.input.string() +
                          " is a label file, which says its unit itself; leave the option out");
-    segmentation::LabelFile file = segmentation::read_labels(options.input, options.names);
-    const auto counts = segmentation::count_labels(file.volume);
-    const auto chosen = segmentation::choose_labels(file.volume, counts, options.labels);
-    const auto areas = estimate_areas(file.volume);
+    segmentation::LabelFile file =
+        segmentation::read_labels(options.input, {.names = options.names});
+    const auto counts = segmentation::count_labels(file.layers.front());
+    const auto chosen = segmentation::choose_labels(file.layers.front(), counts, options.labels);
+    const auto areas = estimate_areas(file.layers.front());
 
     Scan scan;
-    scan.spacing = file.volume.spacing();
+    scan.spacing = file.layers.front().spacing();
     scan.names_from = file.names_from;
     scan.warnings = std::move(file.warnings);
     for (const segmentation::LabelCount& c : counts)
         if (std::ranges::binary_search(chosen, c.value))
-            scan.tissues.push_back({c.value, file.volume.name_of(c.value), c.voxels,
-                                    static_cast<double>(c.voxels) * file.volume.voxel_volume(),
-                                    areas.at(c.value)});
-    scan.volume = std::move(file.volume);
+            scan.tissues.push_back(
+                {c.value, file.layers.front().name_of(c.value), c.voxels,
+                 static_cast<double>(c.voxels) * file.layers.front().voxel_volume(),
+                 areas.at(c.value)});
+    scan.volume = std::move(file.layers.front());
     return scan;
 }
 

@@ -8,8 +8,8 @@
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
-#include "Sizing.h"
 #include "Core/Stopwatch.h"
+#include "Sizing.h"
 #include "Text.h"
 
 namespace myotet::app {

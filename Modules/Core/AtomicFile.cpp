@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/AtomicFile.h"
 
-#include "Core/Errors.h"
-
 #include <unistd.h>
 
 #include <fstream>
 #include <string>
+
+#include "Core/Errors.h"
 
 namespace myotet {
 namespace fs = std::filesystem;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/Components.h"
 
-#include "Core/Errors.h"
-
 #include <algorithm>
 #include <numeric>
 #include <string>
+
+#include "Core/Errors.h"
 
 namespace myotet {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet {
 

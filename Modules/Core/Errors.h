@@ -43,10 +43,10 @@ struct LogicError : std::logic_error {
 #define MYOTET_CHECK_TEXT_(line) #line
 #define MYOTET_CHECK_LINE_(line) MYOTET_CHECK_TEXT_(line)
 /// Stays on in Release. Write conditions so that NaN fails.
-#define MYOTET_CHECK(condition, message)                                                        \
-    do {                                                                                        \
-        if (!(condition))                                                                       \
-            throw ::myotet::LogicError(std::string("internal check failed: ") + (message) +     \
-                                       " [" #condition ", " __FILE__                            \
-                                       ":" MYOTET_CHECK_LINE_(__LINE__) "]");                   \
+#define MYOTET_CHECK(condition, message)                                                    \
+    do {                                                                                    \
+        if (!(condition))                                                                   \
+            throw ::myotet::LogicError(std::string("internal check failed: ") + (message) + \
+                                       " [" #condition ", " __FILE__                        \
+                                       ":" MYOTET_CHECK_LINE_(__LINE__) "]");               \
     } while (false)

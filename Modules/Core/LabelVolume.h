@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
-
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "Core/Geometry.h"
 
 namespace myotet {
 
@@ -18,11 +18,11 @@ struct LabelName {
 
 /// A volume in which each voxel carries the number of a tissue; 0 is background.
 struct LabelVolume {
-    Index3 size{0, 0, 0};                ///< voxels along i, j, k
+    Index3 size{0, 0, 0};  ///< voxels along i, j, k
     /// Voxel index (i, j, k), a voxel's centre being at whole numbers, to LPS, mm.
     /// May be oblique, left-handed or sheared; never singular.
     Eigen::Affine3d index_to_lps = Eigen::Affine3d::Identity();
-    std::vector<std::int32_t> values;    ///< size[0] * size[1] * size[2], i fastest
+    std::vector<std::int32_t> values;         ///< size[0] * size[1] * size[2], i fastest
     std::map<std::int32_t, LabelName> names;  ///< by label value; a value may lack one
 
     [[nodiscard]] std::size_t offset(int i, int j, int k) const {
@@ -37,7 +37,7 @@ struct LabelVolume {
     [[nodiscard]] std::string name_of(std::int32_t value) const {
         const auto it = names.find(value);
         return it != names.end() && !it->second.name.empty() ? it->second.name
-                                                              : "label_" + std::to_string(value);
+                                                             : "label_" + std::to_string(value);
     }
 };
 

@@ -16,9 +16,8 @@ struct ThreadLimit::Impl {
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : impl_(threads > 0 ? new Impl{tbb::global_control(
-                              tbb::global_control::max_allowed_parallelism,
-                              static_cast<std::size_t>(threads))}
+    : impl_(threads > 0 ? new Impl{tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                                       static_cast<std::size_t>(threads))}
                         : nullptr) {}
 
 ThreadLimit::~ThreadLimit() = default;

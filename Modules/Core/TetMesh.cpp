@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/TetMesh.h"
 
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <numeric>
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
 
 namespace myotet {
 namespace {

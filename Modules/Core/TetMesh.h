@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
-
 #include <string>
 #include <vector>
+
+#include "Core/Geometry.h"
 
 namespace myotet {
 
@@ -14,15 +14,15 @@ using Triangle = std::array<std::int32_t, 3>;
 /// Tetrahedra over shared points. A tetrahedron (a, b, c, d) is positive when
 /// (b - a) x (c - a) . (d - a) > 0; every mesh Myotet writes is positive.
 struct TetMesh {
-    std::vector<Vec3> points;           ///< |V| positions, mm
-    std::vector<Tet> tets;              ///< |T| indices into points
-    std::vector<std::int32_t> labels;   ///< |T| label values of the scan, or empty
+    std::vector<Vec3> points;          ///< |V| positions, mm
+    std::vector<Tet> tets;             ///< |T| indices into points
+    std::vector<std::int32_t> labels;  ///< |T| label values of the scan, or empty
 };
 
 /// Triangles over shared points; counter-clockwise seen from outside.
 struct TriMesh {
-    std::vector<Vec3> points;           ///< |V| positions, mm
-    std::vector<Triangle> triangles;    ///< |F| indices into points
+    std::vector<Vec3> points;         ///< |V| positions, mm
+    std::vector<Triangle> triangles;  ///< |F| indices into points
 };
 
 /// Six times the signed volume would be the triple product; this is the volume, mm^3.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Lattice/Patterns.h"
 
-#include "Core/Errors.h"
-
 #include <bit>
+
+#include "Core/Errors.h"
 
 namespace myotet::lattice {
 namespace {

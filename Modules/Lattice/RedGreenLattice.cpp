@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Lattice/RedGreenLattice.h"
 
+#include <cmath>
+
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Lattice/Patterns.h"
-
-#include <cmath>
 
 namespace myotet::lattice {
 namespace {
@@ -53,8 +53,7 @@ std::int32_t RedGreenLattice::node_at(const Index3& c) {
 std::int32_t RedGreenLattice::midpoint(std::int32_t a, std::int32_t b) {
     const Index3 &p = coordinates_[a], &q = coordinates_[b];
     const std::size_t before = coordinates_.size();
-    const std::int32_t m =
-        node_at({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+    const std::int32_t m = node_at({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
     if (coordinates_.size() != before) {
         ends_[m] = {a, b};
         // A coarser neighbour may know this edge only as half of one of its own,
@@ -278,9 +277,8 @@ void RedGreenLattice::cover(double outside) {
                             continue;
                         const std::int32_t n0 =
                             node_at({i * cell + half, j * cell + half, k * cell + half});
-                        const std::int32_t n1 = node_at({next[0] * cell + half,
-                                                         next[1] * cell + half,
-                                                         next[2] * cell + half});
+                        const std::int32_t n1 = node_at(
+                            {next[0] * cell + half, next[1] * cell + half, next[2] * cell + half});
                         const std::int32_t n2 = node_at({p[0] * cell, p[1] * cell, p[2] * cell});
                         const std::int32_t n3 = node_at({q[0] * cell, q[1] * cell, q[2] * cell});
                         add_tet(0, {n0, n1, n2, n3});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-#include "Lattice/NodeMap.h"
-
 #include <functional>
 #include <span>
 #include <vector>
+
+#include "Core/TetMesh.h"
+#include "Lattice/NodeMap.h"
 
 namespace myotet::lattice {
 
@@ -107,7 +107,7 @@ private:
     std::vector<Index3> coordinates_;
     std::vector<float> values_;
     std::vector<std::array<std::int32_t, 2>> ends_;  // of the edge a node bisects, or -1
-    std::vector<char> touched_;      // nodes near edges bisected since the last sweep
+    std::vector<char> touched_;  // nodes near edges bisected since the last sweep
     std::vector<Level> levels_;
     NodeMap map_;
 };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Parallel.h"
-#include "LevelSet/Band.h"
-#include "LevelSet/FarField.h"
-#include "LevelSet/Redistance.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "Core/Parallel.h"
+#include "LevelSet/Band.h"
+#include "LevelSet/FarField.h"
+#include "LevelSet/Redistance.h"
 
 namespace myotet::levelset {
 namespace {
@@ -26,7 +26,8 @@ Index3 place_of(std::size_t slot, const Index3& size) {
 bool touches_band(const Band& band, const Index3& b, Brick& samples) {
     bool near = false;
     for (int corner = 0; corner < 8 && !near; ++corner)
-        near = band.find({b[0] + (corner & 1), b[1] + (corner >> 1 & 1), b[2] + (corner >> 2)}) >= 0;
+        near =
+            band.find({b[0] + (corner & 1), b[1] + (corner >> 1 & 1), b[2] + (corner >> 2)}) >= 0;
     if (!near) return false;
     gather(band, b, 0, 1, samples.data());
     return std::any_of(samples.begin(), samples.end(),
@@ -109,8 +110,8 @@ float distance_to_feet(const Band& band, const FarField& far, const Index3& b, c
     float nearest = std::numeric_limits<float>::infinity();
     const Eigen::Vector3f* best = nullptr;
     for (int corner = 0; corner < 8; ++corner) {
-        const std::size_t i = (static_cast<std::size_t>(c[2] + (corner >> 2)) * far.size[1] +
-                               c[1] + (corner >> 1 & 1)) *
+        const std::size_t i = (static_cast<std::size_t>(c[2] + (corner >> 2)) * far.size[1] + c[1] +
+                               (corner >> 1 & 1)) *
                                   far.size[0] +
                               c[0] + (corner & 1);
         const float d = (p - far.foot[i]).squaredNorm();
@@ -130,8 +131,7 @@ float distance_to_feet(const Band& band, const FarField& far, const Index3& b, c
 // Beyond the band: inside, where depth decides how coarse elements may be, the
 // distance to a foot; outside, the coarse field; both no less than the band's
 // width. On faces towards bricks that hold nothing but the coarse field, that.
-void fill_brick(const Band& band, const FarField& far, const Index3& b, LevelSet& phi,
-                float* out) {
+void fill_brick(const Band& band, const FarField& far, const Index3& b, LevelSet& phi, float* out) {
     Brick coarse;
     gather(band, b, 0, 1, out);
     interpolate_coarse(phi, b, coarse);
@@ -159,17 +159,16 @@ LevelSet assemble(const Band& band) {
     phi.band = band.width;
     phi.bricks = band.blocks;
     phi.coarse_spacing = kCoarseStep * band.spacing;
-    for (int a = 0; a < 3; ++a)
-        phi.coarse_size[a] = kCells / kCoarseStep * band.blocks[a] + 1;
+    for (int a = 0; a < 3; ++a) phi.coarse_size[a] = kCells / kCoarseStep * band.blocks[a] + 1;
     FarField far = far_field(band);
     phi.coarse_values = std::move(far.value);
     phi.values.resize(number_bricks(band, phi) * LevelSet::kBrickSize);
     parallel_for(0, phi.brick_of.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t s = first; s < last; ++s)
             if (const std::int32_t number = phi.brick_of[s]; number >= 0)
-                fill_brick(band, far, place_of(s, phi.bricks), phi,
-                           phi.values.data() +
-                               static_cast<std::size_t>(number) * LevelSet::kBrickSize);
+                fill_brick(
+                    band, far, place_of(s, phi.bricks), phi,
+                    phi.values.data() + static_cast<std::size_t>(number) * LevelSet::kBrickSize);
     });
     return phi;
 }

@@ -16,8 +16,9 @@ float value_at(const Band& band, const Index3& p) {
 }  // namespace
 
 void gather(const Band& band, const Index3& b, int low, int high, float* out) {
-    gather(band, band.values.data(), b, low, high,
-           [&](std::int32_t number) { return band.empty_value(number); }, out);
+    gather(
+        band, band.values.data(), b, low, high,
+        [&](std::int32_t number) { return band.empty_value(number); }, out);
 }
 
 void mark_unstored_blocks(Band& band) {

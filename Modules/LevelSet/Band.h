@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/LevelSet.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <vector>
+
+#include "LevelSet/LevelSet.h"
 
 namespace myotet::levelset {
 
@@ -62,13 +62,15 @@ void gather(const Band& band, const T* samples, const Index3& b, int low, int hi
     const int side = low + n + high;
     // Of each axis: where the lower neighbour, the block and the upper one
     // begin and end in `out`, and the source's first sample there.
-    const int begin[3] = {0, low, low + n}, end[3] = {low, low + n, side}, first[3] = {n - low, 0, 0};
+    const int begin[3] = {0, low, low + n}, end[3] = {low, low + n, side},
+              first[3] = {n - low, 0, 0};
     for (int z = low ? 0 : 1; z <= (high ? 2 : 1); ++z)
         for (int y = low ? 0 : 1; y <= (high ? 2 : 1); ++y)
             for (int x = low ? 0 : 1; x <= (high ? 2 : 1); ++x) {
                 const std::int32_t number = band.find({b[0] + x - 1, b[1] + y - 1, b[2] + z - 1});
-                const T* source =
-                    number >= 0 ? samples + static_cast<std::size_t>(number) * Band::kSize : nullptr;
+                const T* source = number >= 0
+                                      ? samples + static_cast<std::size_t>(number) * Band::kSize
+                                      : nullptr;
                 for (int k = begin[z]; k < end[z]; ++k)
                     for (int j = begin[y]; j < end[y]; ++j) {
                         T* row = out + (k * side + j) * side;
@@ -76,9 +78,9 @@ void gather(const Band& band, const T* samples, const Index3& b, int low, int hi
                             std::fill(row + begin[x], row + end[x], empty(number));
                             continue;
                         }
-                        const T* from = source +
-                                        ((k - begin[z] + first[z]) * n + j - begin[y] + first[y]) * n +
-                                        first[x];
+                        const T* from =
+                            source + ((k - begin[z] + first[z]) * n + j - begin[y] + first[y]) * n +
+                            first[x];
                         std::copy(from, from + (end[x] - begin[x]), row + begin[x]);
                     }
             }

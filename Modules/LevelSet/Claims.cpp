@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/Claims.h"
 
-#include "LevelSet/Band.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
+
+#include "LevelSet/Band.h"
 
 namespace myotet::levelset {
 namespace {
@@ -32,8 +32,8 @@ Range range_of(double centre, double side, double spacing) {
 
 std::uint64_t key_of(const SharedLattice& lattice, int i, int j, int k) {
     const std::size_t slot = lattice.slot({i / kSide, j / kSide, k / kSide});
-    return slot * Band::kSize + static_cast<std::size_t>(((k % kSide) * kSide + j % kSide) * kSide +
-                                                         i % kSide);
+    return slot * Band::kSize +
+           static_cast<std::size_t>(((k % kSide) * kSide + j % kSide) * kSide + i % kSide);
 }
 
 struct Wish {
@@ -141,8 +141,7 @@ std::vector<Claim> claim_samples(const RegionMap& map, const SharedLattice& latt
 
 std::span<const Claim> claims_of_block(const std::vector<Claim>& claims, std::size_t slot) {
     const auto before = [](const Claim& c, std::uint64_t key) { return c.sample < key; };
-    const auto first =
-        std::lower_bound(claims.begin(), claims.end(), slot * Band::kSize, before);
+    const auto first = std::lower_bound(claims.begin(), claims.end(), slot * Band::kSize, before);
     const auto last = std::lower_bound(first, claims.end(), (slot + 1) * Band::kSize, before);
     return {first, last};
 }

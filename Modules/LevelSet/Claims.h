@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/RegionMap.h"
-
 #include <Eigen/Geometry>
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "LevelSet/RegionMap.h"
 
 namespace myotet::levelset {
 
 /// The lattice that all regions share: sample (I, J, K) at spacing * (I, J, K)
 /// in local coordinates, block B holding the samples from 8 B on.
 struct SharedLattice {
-    double spacing = 0;                        ///< mm
-    Index3 blocks{0, 0, 0};                    ///< that cover the volume and a margin
-    Eigen::Affine3d local_to_index;            ///< local coordinates, mm, to voxel index
-    Vec3 plane_spacing = Vec3::Zero();         ///< between voxel planes of each axis, mm
+    double spacing = 0;                 ///< mm
+    Index3 blocks{0, 0, 0};             ///< that cover the volume and a margin
+    Eigen::Affine3d local_to_index;     ///< local coordinates, mm, to voxel index
+    Vec3 plane_spacing = Vec3::Zero();  ///< between voxel planes of each axis, mm
 
     [[nodiscard]] std::size_t slot(const Index3& b) const {
         return (static_cast<std::size_t>(b[2]) * blocks[1] + b[1]) * blocks[0] + b[0];
@@ -28,7 +27,7 @@ struct SharedLattice {
 struct Claim {
     std::uint64_t sample;  ///< 512 * slot of the shared block + place in the block
     Index3 voxel;
-    std::uint8_t axes;     ///< bit a: along axis a the sample counts as the voxel's middle
+    std::uint8_t axes;  ///< bit a: along axis a the sample counts as the voxel's middle
 };
 
 /// Where the lattice is wider than the voxels, or out of step with them, a

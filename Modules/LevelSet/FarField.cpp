@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/FarField.h"
 
-#include "Core/Parallel.h"
-#include "LevelSet/Redistance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "Core/Parallel.h"
+#include "LevelSet/Redistance.h"
 
 namespace myotet::levelset {
 namespace {
@@ -19,9 +19,9 @@ constexpr float kUnknown = std::numeric_limits<float>::infinity();
 struct Lattice {
     Index3 size;
     std::vector<Point> foot;
-    std::vector<float> squared;   // distance to the foot, fine spacings squared
-    std::vector<float> value;     // what is returned, mm; only its sign counts until finish()
-    std::vector<char> known;      // the band holds the value
+    std::vector<float> squared;  // distance to the foot, fine spacings squared
+    std::vector<float> value;    // what is returned, mm; only its sign counts until finish()
+    std::vector<char> known;     // the band holds the value
 
     [[nodiscard]] std::size_t at(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * size[1] + j) * size[0] + i;
@@ -38,9 +38,8 @@ void seed(const Band& band, Lattice& lattice, int k) {
             const std::size_t here = lattice.at(i, j, k);
             const int x = i * kCoarseStep, y = j * kCoarseStep, z = k * kCoarseStep;
             const std::int32_t number = band.find({x / n, y / n, z / n});
-            const float v = number >= 0
-                                ? band.block(number)[((z % n) * n + y % n) * n + x % n]
-                                : band.empty_value(number);
+            const float v = number >= 0 ? band.block(number)[((z % n) * n + y % n) * n + x % n]
+                                        : band.empty_value(number);
             lattice.value[here] = v;
             lattice.known[here] = std::abs(v) < band.width;
             lattice.squared[here] = kUnknown;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/Band.h"
-
 #include <vector>
+
+#include "LevelSet/Band.h"
 
 namespace myotet::levelset {
 

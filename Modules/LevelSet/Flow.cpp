@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/Flow.h"
 
-#include "Core/Parallel.h"
-#include "LevelSet/GiveBack.h"
-#include "LevelSet/Redistance.h"
-#include "LevelSet/VoxelBand.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
+
+#include "Core/Parallel.h"
+#include "LevelSet/GiveBack.h"
+#include "LevelSet/Redistance.h"
+#include "LevelSet/VoxelBand.h"
 
 namespace myotet::levelset {
 namespace {
@@ -101,9 +101,9 @@ void lay_anew(Band& band, const Locks& locks) {
         std::vector<std::int8_t> moved(fresh.values.size(), 0);
         for (std::size_t b = 0; b < fresh.position.size(); ++b)
             if (const std::int32_t old = band.find(fresh.position[b]); old >= 0)
-                std::copy_n(locks.of_sample.begin() +
-                                static_cast<std::ptrdiff_t>(old) * Band::kSize,
-                            Band::kSize, moved.begin() + b * Band::kSize);
+                std::copy_n(
+                    locks.of_sample.begin() + static_cast<std::ptrdiff_t>(old) * Band::kSize,
+                    Band::kSize, moved.begin() + b * Band::kSize);
         locks.of_sample = std::move(moved);
     }
     band = std::move(fresh);
@@ -141,8 +141,8 @@ std::int64_t flow_by_mean_curvature(Band& band, const Locks& locks, const FlowOp
         done += now;
         if (options.wanders) lay_anew(band, locks);
         if (keep_volume) before = band.values;
-        stopped += flow_for(band, now, step, locks,
-                            done == steps ? band.width : kReach * band.spacing);
+        stopped +=
+            flow_for(band, now, step, locks, done == steps ? band.width : kReach * band.spacing);
         if (keep_volume) give_back(band, before, options.give_back_radius);
     }
     return stopped;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Progress.h"
-#include "LevelSet/Band.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "Core/Progress.h"
+#include "LevelSet/Band.h"
 
 namespace myotet::levelset {
 
@@ -13,12 +13,12 @@ namespace myotet::levelset {
 /// in step when blocks are laid anew; empty: none.
 struct Locks {
     std::vector<std::int8_t>& of_sample;
-    double unit = 0;                 ///< mm
+    double unit = 0;  ///< mm
 };
 
 /// What a flow is to do.
 struct FlowOptions {
-    double time = 0;                 ///< b t, mm^2
+    double time = 0;  ///< b t, mm^2
     /// Scale on which displacement is given back, mm; see give_back. 0: volume
     /// is lost as the flow has it.
     double give_back_radius = 0;

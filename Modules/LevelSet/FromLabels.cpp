@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/FromLabels.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "LevelSet/Flow.h"
@@ -11,12 +17,6 @@
 #include "LevelSet/RegionMap.h"
 #include "LevelSet/VoxelBand.h"
 #include "LevelSet/VoxelVolume.h"
-
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <functional>
-#include <sstream>
 
 namespace myotet::levelset {
 namespace {
@@ -113,7 +113,8 @@ void LabelOptions::validate() const {
     };
     require(spacing >= 0 && std::isfinite(spacing), "spacing", spacing,
             "a length in mm, or 0 to have it chosen");
-    require(std::isfinite(smooth), "smooth", smooth, "a length in mm, or negative to have it chosen");
+    require(std::isfinite(smooth), "smooth", smooth,
+            "a length in mm, or negative to have it chosen");
     require(max_memory > 0, "max_memory", max_memory, "a positive number of bytes");
 }
 

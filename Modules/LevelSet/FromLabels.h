@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-#include "Core/Progress.h"
-#include "LevelSet/LevelSet.h"
-
 #include <span>
 #include <string>
 #include <vector>
+
+#include "Core/LabelVolume.h"
+#include "Core/Progress.h"
+#include "LevelSet/LevelSet.h"
 
 namespace myotet::levelset {
 
@@ -32,21 +32,21 @@ struct LabelOptions {
 /// One connected component of one label.
 struct Region {
     std::int32_t label = 0;
-    int component = 0;           ///< 0 is the label's largest
+    int component = 0;  ///< 0 is the label's largest
     std::int64_t voxels = 0;
-    double volume_labels = 0;    ///< voxels * volume of a voxel, mm^3
-    double volume_level_set = 0; ///< enclosed by phi = 0 after smoothing and partition, mm^3
-    double inscribed_radius = 0; ///< largest -phi, mm
-    bool smoothed_less = false;  ///< smoothing was held back to keep a thin part
+    double volume_labels = 0;     ///< voxels * volume of a voxel, mm^3
+    double volume_level_set = 0;  ///< enclosed by phi = 0 after smoothing and partition, mm^3
+    double inscribed_radius = 0;  ///< largest -phi, mm
+    bool smoothed_less = false;   ///< smoothing was held back to keep a thin part
     LevelSet phi;
 };
 
 /// All regions in one local frame, whose axes follow the scan's.
 struct LabelLevelSets {
-    Frame frame;                 ///< local coordinates to the patient's
-    double spacing = 0;          ///< as chosen, mm
-    double smooth = 0;           ///< as chosen, mm
-    std::vector<Region> regions; ///< by label value, then by component
+    Frame frame;                  ///< local coordinates to the patient's
+    double spacing = 0;           ///< as chosen, mm
+    double smooth = 0;            ///< as chosen, mm
+    std::vector<Region> regions;  ///< by label value, then by component
 };
 
 /// Turns the components of `labels` (6-connected voxels) into signed distances

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/FromSurface.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
 #include "Core/Errors.h"
 #include "LevelSet/Band.h"
 #include "LevelSet/Flow.h"
 #include "LevelSet/Redistance.h"
 #include "LevelSet/SurfaceBand.h"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <sstream>
 
 namespace myotet::levelset {
 namespace {
@@ -63,7 +63,8 @@ void require_closed(const TriMesh& surface) {
     if (open > 0)
         throw InputError("the surface is not closed: " + std::to_string(open) +
                          " edges are not walked once each way by two triangles, one of them at " +
-                         text(where) + "; close its holes, merge its double points and orient its "
+                         text(where) +
+                         "; close its holes, merge its double points and orient its "
                          "triangles alike");
 }
 
@@ -97,9 +98,8 @@ void require_memory(const TriMesh& surface, const SurfaceOptions& options) {
     constexpr double kBricksPerFace = 4, kBytesPerBrick = 9000, kBytesPerCoarse = 25;
     const double side = LevelSet::kBrickCells * options.spacing;
     const double coarse = 4 * options.spacing;
-    const double bytes =
-        kBricksPerFace * kBytesPerBrick * (area / (side * side) + 8) +
-        kBytesPerCoarse * ((box.extent().array() / coarse) + 10).prod();
+    const double bytes = kBricksPerFace * kBytesPerBrick * (area / (side * side) + 8) +
+                         kBytesPerCoarse * ((box.extent().array() / coarse) + 10).prod();
     if (!(bytes <= options.max_memory)) {
         std::ostringstream out;
         out.precision(3);

@@ -9,9 +9,9 @@ namespace myotet::levelset {
 
 /// How a closed surface becomes a level set.
 struct SurfaceOptions {
-    double spacing = 0;        ///< sample distance, mm; must be positive
-    double smooth = 0;         ///< how far motion by mean curvature moves a sharp edge, mm
-    double max_memory = 8e9;   ///< bytes the work may hold at its peak
+    double spacing = 0;       ///< sample distance, mm; must be positive
+    double smooth = 0;        ///< how far motion by mean curvature moves a sharp edge, mm
+    double max_memory = 8e9;  ///< bytes the work may hold at its peak
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };

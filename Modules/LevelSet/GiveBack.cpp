@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/GiveBack.h"
 
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "Core/Parallel.h"
+
 namespace myotet::levelset {
 namespace {
 
 constexpr int kSide = Band::kSide;
-constexpr int kStep = kVolumeStep;      // samples a coarse cell, along an axis
-constexpr int kCells = kSide / kStep;   // coarse cells a block, along an axis
+constexpr int kStep = kVolumeStep;     // samples a coarse cell, along an axis
+constexpr int kCells = kSide / kStep;  // coarse cells a block, along an axis
 constexpr int kCount = kCells * kCells * kCells;
 constexpr int kApron = kCells + 2;
 
@@ -44,8 +44,8 @@ Around cells_around(const Neighbours& neighbours, const std::vector<Cells>& cell
         for (int j = 0; j < kApron; ++j)
             for (int i = 0; i < kApron; ++i, ++at) {
                 const std::int32_t n = neighbours[(side(k) * 3 + side(j)) * 3 + side(i)];
-                out[at] = n < 0 ? Cell{}
-                                : cells[n][(local(k) * kCells + local(j)) * kCells + local(i)];
+                out[at] =
+                    n < 0 ? Cell{} : cells[n][(local(k) * kCells + local(j)) * kCells + local(i)];
             }
     return out;
 }
@@ -88,8 +88,7 @@ void blur_block(const Around& in, Cells& out) {
                 Cell sum;
                 for (int n = 0; n < 27; ++n) {
                     const float f = w[n % 3] * w[n / 3 % 3] * w[n / 9];
-                    const Cell& c =
-                        in[((k + n / 9) * kApron + j + n / 3 % 3) * kApron + i + n % 3];
+                    const Cell& c = in[((k + n / 9) * kApron + j + n / 3 % 3) * kApron + i + n % 3];
                     sum.sum += f * c.sum;
                     sum.weight += f * c.weight;
                 }
@@ -155,15 +154,13 @@ void spread(Band& band, double radius, double most, Sum&& sum_block) {
 }  // namespace
 
 void give_back(Band& band, std::span<const float> before, double radius) {
-    spread(band, radius, band.width, [&](std::size_t b, Cells& out) {
-        sum_displacement(band, before, b, out);
-    });
+    spread(band, radius, band.width,
+           [&](std::size_t b, Cells& out) { sum_displacement(band, before, b, out); });
 }
 
 void restore_volume(Band& band, const CellVolumes& missing, double radius) {
-    spread(band, radius, 0.25 * band.spacing, [&](std::size_t b, Cells& out) {
-        sum_volume(band, missing, b, out);
-    });
+    spread(band, radius, 0.25 * band.spacing,
+           [&](std::size_t b, Cells& out) { sum_volume(band, missing, b, out); });
 }
 
 }  // namespace myotet::levelset

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/Band.h"
-
 #include <array>
 #include <span>
 #include <vector>
+
+#include "LevelSet/Band.h"
 
 namespace myotet::levelset {
 

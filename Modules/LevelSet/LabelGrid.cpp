@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/LabelGrid.h"
 
-#include "Core/Errors.h"
-
 #include <Eigen/LU>
 #include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+
+#include "Core/Errors.h"
 
 namespace myotet::levelset {
 namespace {
@@ -77,8 +76,8 @@ LabelGrid lay_grid(const LabelVolume& volume, std::span<const SharedWall> walls,
     for (const SharedWall& w : walls) area += 2 * w.area;
     const double voxels = static_cast<double>(volume.values.size());
     grid.smooth = options.smooth < 0 ? kSmoothOfVoxel * side.maxCoeff() : options.smooth;
-    const double h = options.spacing > 0 ? options.spacing
-                                         : choose_spacing(area, voxels, grid.smooth, side);
+    const double h =
+        options.spacing > 0 ? options.spacing : choose_spacing(area, voxels, grid.smooth, side);
     grid.lattice.spacing = h;
     grid.forecast_bytes = forecast(area, voxels, grid.smooth, h).bytes;
     if (!(grid.forecast_bytes <= options.max_memory)) {
@@ -103,8 +102,7 @@ LabelGrid lay_grid(const LabelVolume& volume, std::span<const SharedWall> walls,
     const Vec3 centre = turn * (volume.index_to_lps * Vec3::Zero());
     Vec3 origin;
     for (int a = 0; a < 3; ++a) {
-        origin[a] = centre[a] -
-                    h * std::ceil((centre[a] - box.min[a] + kMarginBlocks * block) / h);
+        origin[a] = centre[a] - h * std::ceil((centre[a] - box.min[a] + kMarginBlocks * block) / h);
         grid.lattice.blocks[a] =
             static_cast<int>(std::ceil((box.max[a] - origin[a]) / block)) + kMarginBlocks;
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "LevelSet/FromLabels.h"
 #include "LevelSet/Partition.h"
 #include "LevelSet/VoxelBand.h"
-
-#include <span>
 
 namespace myotet::levelset {
 
@@ -13,8 +13,8 @@ namespace myotet::levelset {
 struct LabelGrid {
     Frame frame;
     SharedLattice lattice;
-    double smooth = 0;           ///< mm
-    double forecast_bytes = 0;   ///< peak of the whole work
+    double smooth = 0;          ///< mm
+    double forecast_bytes = 0;  ///< peak of the whole work
 };
 
 /// Lays an isotropic lattice along the scan's axes: the rotation nearest to

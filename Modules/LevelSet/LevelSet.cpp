@@ -2,7 +2,6 @@
 #include "LevelSet/LevelSet.h"
 
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +12,7 @@ namespace {
 struct Cell {
     const float* corner;  // sample (0, 0, 0)
     std::ptrdiff_t dy, dz;
-    Vec3 t;               // fractions in [0, 1]
+    Vec3 t;  // fractions in [0, 1]
     double inverse_spacing;
 };
 
@@ -32,11 +31,8 @@ Cell locate(const LevelSet& phi, const Vec3& point) {
         constexpr int n = LevelSet::kBrickSamples, m = LevelSet::kBrickCells - 1;
         const std::size_t at =
             ((static_cast<std::size_t>(cell[2] & m)) * n + (cell[1] & m)) * n + (cell[0] & m);
-        return {phi.values.data() + static_cast<std::size_t>(number) * LevelSet::kBrickSize + at,
-                n,
-                n * n,
-                g - Vec3(cell[0], cell[1], cell[2]),
-                per_spacing};
+        return {phi.values.data() + static_cast<std::size_t>(number) * LevelSet::kBrickSize + at, n,
+                n * n, g - Vec3(cell[0], cell[1], cell[2]), per_spacing};
     }
     const Vec3 c = (point - phi.origin) / phi.coarse_spacing;
     Index3 coarse;
@@ -60,9 +56,9 @@ Sample interpolate(const Cell& cell) {
     const double dx0 = d00 + y * (d10 - d00), dx1 = d01 + y * (d11 - d01);
     Sample s;
     s.value = v0 + z * (v1 - v0);
-    s.gradient = cell.inverse_spacing *
-                 Vec3(dx0 + z * (dx1 - dx0),
-                      (v10 - v00) + z * ((v11 - v01) - (v10 - v00)), v1 - v0);
+    s.gradient =
+        cell.inverse_spacing *
+        Vec3(dx0 + z * (dx1 - dx0), (v10 - v00) + z * ((v11 - v01) - (v10 - v00)), v1 - v0);
     return s;
 }
 
@@ -128,8 +124,7 @@ std::array<double, 2> principal_curvatures(const LevelSet& phi, const Vec3& poin
     const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
     Eigen::Matrix2d s;
     s << u.dot(hessian * u), u.dot(hessian * v), v.dot(hessian * u), v.dot(hessian * v);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(s / length,
-                                                                 Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(s / length, Eigen::EigenvaluesOnly);
     return {solver.eigenvalues()[1], solver.eigenvalues()[0]};
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "Core/Geometry.h"
 
 namespace myotet::levelset {
 
@@ -35,9 +35,9 @@ struct LevelSet {
     std::vector<std::int32_t> brick_of;  ///< per brick, i fastest: number of its samples, or -1
     std::vector<float> values;           ///< kBrickSize samples a stored brick, i fastest, mm
 
-    double coarse_spacing = 0;           ///< coarse sample distance, mm; same origin
-    Index3 coarse_size{0, 0, 0};         ///< coarse samples along each axis; covers all bricks
-    std::vector<float> coarse_values;    ///< i fastest, mm
+    double coarse_spacing = 0;         ///< coarse sample distance, mm; same origin
+    Index3 coarse_size{0, 0, 0};       ///< coarse samples along each axis; covers all bricks
+    std::vector<float> coarse_values;  ///< i fastest, mm
 
     /// Trilinear interpolation; outside the stored box, the value at the nearest
     /// point of the box plus the distance to it (a bound on the true distance).

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/Measure.h"
 
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "Core/Parallel.h"
 
 namespace myotet::levelset {
 namespace {
@@ -41,8 +41,8 @@ double inside_fraction(const std::array<float, 8>& corner) {
 
 double enclosed_volume(const LevelSet& phi) {
     constexpr int n = LevelSet::kBrickSamples, cells = LevelSet::kBrickCells;
-    const double count = parallel_sum(
-        0, phi.brick_of.size(), 64, [&](std::size_t first, std::size_t last) {
+    const double count =
+        parallel_sum(0, phi.brick_of.size(), 64, [&](std::size_t first, std::size_t last) {
             double sum = 0;
             for (std::size_t s = first; s < last; ++s) {
                 const std::int32_t number = phi.brick_of[s];
@@ -62,8 +62,7 @@ double enclosed_volume(const LevelSet& phi) {
                         for (int i = 0; i < cells; ++i) {
                             const float* p = v + (k * n + j) * n + i;
                             sum += inside_fraction({p[0], p[1], p[n], p[n + 1], p[n * n],
-                                                    p[n * n + 1], p[n * n + n],
-                                                    p[n * n + n + 1]});
+                                                    p[n * n + 1], p[n * n + n], p[n * n + n + 1]});
                         }
             }
             return sum;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/LevelSet.h"
-
 #include <array>
+
+#include "LevelSet/LevelSet.h"
 
 namespace myotet::levelset {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Redistance.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "LevelSet/Redistance.h"
 
 namespace myotet::levelset {
 

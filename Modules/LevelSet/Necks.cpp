@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/Necks.h"
 
-#include "Core/Parallel.h"
-
 #include <algorithm>
+
+#include "Core/Parallel.h"
 
 namespace myotet::levelset {
 namespace {
@@ -72,8 +72,8 @@ std::vector<std::vector<std::int32_t>> covered_parts(const Cutout& cut,
 
 void mark_around(const Cutout& cut, std::size_t here, std::vector<std::size_t>& marked) {
     for (int n = 0; n < 27; ++n) {
-        const std::size_t to = here + (n % 3 - 1) + (n / 3 % 3 - 1) * cut.steps[3] +
-                               (n / 9 - 1) * cut.steps[5];
+        const std::size_t to =
+            here + (n % 3 - 1) + (n / 3 % 3 - 1) * cut.steps[3] + (n / 9 - 1) * cut.steps[5];
         if (cut.own[to] && !cut.covered[to]) marked.push_back(cut.in_map(to));
     }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/RegionMap.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "LevelSet/RegionMap.h"
 
 namespace myotet::levelset {
 

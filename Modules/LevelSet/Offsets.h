@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/Partition.h"
-
 #include <span>
 #include <vector>
+
+#include "LevelSet/Partition.h"
 
 namespace myotet::levelset {
 

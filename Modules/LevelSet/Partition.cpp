@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/Partition.h"
 
-#include "Core/Parallel.h"
-#include "LevelSet/Flow.h"
-#include "LevelSet/Measure.h"
-#include "LevelSet/Offsets.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+
+#include "Core/Parallel.h"
+#include "LevelSet/Flow.h"
+#include "LevelSet/Measure.h"
+#include "LevelSet/Offsets.h"
 
 namespace myotet::levelset {
 namespace {
@@ -26,8 +26,8 @@ struct Place {
 };
 struct Places {
     std::vector<Place> places;
-    std::vector<int> region;       // ascending within a place
-    std::vector<double> full;      // per region: volume of blocks wholly inside, mm^3
+    std::vector<int> region;   // ascending within a place
+    std::vector<double> full;  // per region: volume of blocks wholly inside, mm^3
 };
 
 Index3 local(const RegionBand& r, const Index3& block) {
@@ -43,8 +43,8 @@ struct Key {
 // The region that owns the block's first sample: where it is stored nowhere
 // near, it fills the block and is missed otherwise.
 int owner_of(const RegionMap& map, const SharedLattice& lattice, const Index3& block) {
-    const Vec3 u = lattice.local_to_index *
-                   (lattice.spacing * kSide * Vec3(block[0], block[1], block[2]));
+    const Vec3 u =
+        lattice.local_to_index * (lattice.spacing * kSide * Vec3(block[0], block[1], block[2]));
     return map.owner_at(static_cast<int>(std::lround(u[0])), static_cast<int>(std::lround(u[1])),
                         static_cast<int>(std::lround(u[2])));
 }
@@ -71,8 +71,9 @@ Places find_places(const std::vector<RegionBand>& regions, const RegionMap& map,
         if (i == 0 || keys[i].block != keys[i - 1].block)
             for (int n = 0; n < 8; ++n) {
                 const Index3& b = keys[i].block;
-                keys.push_back({b, owner_of(map, lattice, {b[2] + (n & 1), b[1] + (n >> 1 & 1),
-                                                           b[0] + (n >> 2)})});
+                keys.push_back(
+                    {b, owner_of(map, lattice,
+                                 {b[2] + (n & 1), b[1] + (n >> 1 & 1), b[0] + (n >> 2)})});
             }
     tidy();
     Places out;
@@ -101,8 +102,9 @@ void load(const RegionBand& region, const Index3& block, float offset, int high,
     const int side = kSide + high, count = side * side * side;
     const float width = region.band.width, unit = static_cast<float>(region.lock_unit);
     std::array<std::int8_t, kSamples * kSamples * kSamples> locks;
-    gather(region.band, region.locks.data(), b, 0, high,
-           [](std::int32_t) { return std::int8_t{0}; }, locks.data());
+    gather(
+        region.band, region.locks.data(), b, 0, high, [](std::int32_t) { return std::int8_t{0}; },
+        locks.data());
     for (int i = 0; i < count; ++i)
         // Beyond the band nothing moves, or interfaces would appear at its edge.
         if (std::abs(out[i]) < width) out[i] = locked(out[i] + offset, locks[i], unit);
@@ -186,8 +188,7 @@ std::vector<double> measure(const std::vector<RegionBand>& regions, const Places
     return volume;
 }
 
-void apply(std::vector<RegionBand>& regions, const Places& places,
-           std::span<const double> offset) {
+void apply(std::vector<RegionBand>& regions, const Places& places, std::span<const double> offset) {
     parallel_for(0, places.places.size(), kGrain, [&](std::size_t first, std::size_t last) {
         Scratch work;
         for (std::size_t p = first; p < last; ++p) {
@@ -199,8 +200,8 @@ void apply(std::vector<RegionBand>& regions, const Places& places,
                 if (number < 0) continue;
                 float* out = r.band.block(number);
                 for (int i = 0; i < Band::kSize; ++i)
-                    out[i] = std::clamp(work.phi[n][i] - work.shift[i], -r.band.width,
-                                        r.band.width);
+                    out[i] =
+                        std::clamp(work.phi[n][i] - work.shift[i], -r.band.width, r.band.width);
             }
         }
     });

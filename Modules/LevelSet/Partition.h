@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/GiveBack.h"
-#include "LevelSet/VoxelBand.h"
-
-#include "Core/Progress.h"
-
 #include <span>
 #include <vector>
+
+#include "Core/Progress.h"
+#include "LevelSet/GiveBack.h"
+#include "LevelSet/VoxelBand.h"
 
 namespace myotet::levelset {
 
@@ -18,22 +17,21 @@ struct SharedWall {
 };
 
 /// Every pair of owners with a common voxel face, sorted.
-[[nodiscard]] std::vector<SharedWall> shared_walls(const RegionMap& map,
-                                                   const Vec3& face_area);
+[[nodiscard]] std::vector<SharedWall> shared_walls(const RegionMap& map, const Vec3& face_area);
 
 /// What each region is to enclose after the partition, mm^3. The background,
 /// number 0, gets what remains.
 struct WantedVolumes {
-    std::vector<double> total;        ///< per region
-    std::vector<CellVolumes> cells;   ///< per region, in its stored blocks; empty: totals only
-    double radius = 0;                ///< mm over which the cells' volumes are to be met
+    std::vector<double> total;       ///< per region
+    std::vector<CellVolumes> cells;  ///< per region, in its stored blocks; empty: totals only
+    double radius = 0;               ///< mm over which the cells' volumes are to be met
 };
 
 /// What make_partition did.
 struct PartitionSummary {
     int iterations = 0;
-    double largest_error = 0;         ///< relative error left in a total, over all regions
-    std::vector<double> offset;       ///< per region, added to its phi in the end, mm
+    double largest_error = 0;    ///< relative error left in a total, over all regions
+    std::vector<double> offset;  ///< per region, added to its phi in the end, mm
 };
 
 /// Makes the regions (number 0 the background) a partition: where a <= b are

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/Redistance.h"
 
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+
+#include "Core/Parallel.h"
 
 namespace myotet::levelset {
 namespace {
@@ -35,13 +35,16 @@ using Mask = std::array<std::uint64_t, kSide>;
 
 struct Work {
     std::vector<Foot> foot;
-    std::vector<Mask> kept;    // samples whose values stay or are scaled
-    std::vector<float> scaled; // their new values, where they do not stay
-    std::vector<Mask> known;   // samples with a foot when the current layer began
-    std::vector<Mask> grown;   // and now
+    std::vector<Mask> kept;     // samples whose values stay or are scaled
+    std::vector<float> scaled;  // their new values, where they do not stay
+    std::vector<Mask> known;    // samples with a foot when the current layer began
+    std::vector<Mask> grown;    // and now
 
     explicit Work(std::size_t blocks)
-        : foot(blocks * kSize), kept(blocks, Mask{}), known(blocks, Mask{}), grown(blocks, Mask{}) {}
+        : foot(blocks * kSize),
+          kept(blocks, Mask{}),
+          known(blocks, Mask{}),
+          grown(blocks, Mask{}) {}
 };
 
 // Bits of a block with an apron of one sample: row (k, j), bit i, counted from
@@ -183,9 +186,9 @@ Foot nearest_foot(const Foot& p, const Index3& at, const Around& blocks, const R
                                   at[1] + dj + kSide - 1, at[2] + dk + kSide - 1};
                 const std::int32_t block =
                     blocks[(q[2] / kSide * 3 + q[1] / kSide) * 3 + q[0] / kSide];
-                const Foot& foot = work.foot[static_cast<std::size_t>(block) * kSize +
-                                             (q[2] % kSide * kSide + q[1] % kSide) * kSide +
-                                             q[0] % kSide];
+                const Foot& foot =
+                    work.foot[static_cast<std::size_t>(block) * kSize +
+                              (q[2] % kSide * kSide + q[1] % kSide) * kSide + q[0] % kSide];
                 const float d = (p - foot).squaredNorm();
                 if (d < nearest) {
                     nearest = d;
@@ -230,8 +233,8 @@ void write_block(Band& band, std::size_t b, const Work& work) {
         }
         float d = band.width;
         if (bit(work.grown[b]))
-            d = std::min(d, float(band.spacing *
-                                  (place(band, b, at) - work.foot[b * kSize + at]).norm()));
+            d = std::min(
+                d, float(band.spacing * (place(band, b, at) - work.foot[b * kSize + at]).norm()));
         values[at] = values[at] < 0 ? -d : d;
     }
 }
@@ -252,7 +255,8 @@ void redistance(Band& band, Seeds seeds, int slides, double reach) {
         if (seeds == Seeds::keep_ends) work.kept[b] = work.known[b];
         if (seeds == Seeds::keep_cells || seeds == Seeds::scale) keep_block(band, b, work);
     });
-    const int layers = static_cast<int>(std::ceil(std::min(reach, double(band.width)) / band.spacing));
+    const int layers =
+        static_cast<int>(std::ceil(std::min(reach, double(band.width)) / band.spacing));
     for (int layer = 1; layer <= layers; ++layer) {
         each_block([&](std::size_t b) { grow_block(band, b, slides, work); });
         work.known = work.grown;
@@ -310,7 +314,8 @@ Band refit(const Band& band, float width) {
                 for (int i = block(box.min[0]); i <= block(box.max[0]); ++i) {
                     const Index3 q{p[0] + i, p[1] + j, p[2] + k};
                     bool within = true;
-                    for (int a = 0; a < 3; ++a) within = within && q[a] >= 0 && q[a] < out.blocks[a];
+                    for (int a = 0; a < 3; ++a)
+                        within = within && q[a] >= 0 && q[a] < out.blocks[a];
                     if (within) wanted[band.slot(q)] = 1;
                 }
     }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/RegionMap.h"
 
-#include "Core/Components.h"
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-#include "LevelSet/Necks.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <string>
+
+#include "Core/Components.h"
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "LevelSet/Necks.h"
 
 namespace myotet::levelset {
 namespace {
@@ -77,9 +77,9 @@ void add_components(const LabelVolume& volume, const LabelBox& box, RegionMap& m
     std::size_t at = 0;
     for (int k = 0; k < parts.size[2]; ++k)
         for (int j = 0; j < parts.size[1]; ++j) {
-            RegionMap::Owner* row = map.owner.data() + map.offset(parts.origin[0],
-                                                                  parts.origin[1] + j,
-                                                                  parts.origin[2] + k);
+            RegionMap::Owner* row =
+                map.owner.data() +
+                map.offset(parts.origin[0], parts.origin[1] + j, parts.origin[2] + k);
             for (int i = 0; i < parts.size[0]; ++i, ++at)
                 if (parts.number[at] >= 0)
                     row[i] = static_cast<RegionMap::Owner>(first + parts.number[at]);

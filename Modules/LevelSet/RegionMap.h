@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet::levelset {
 
 /// One 6-connected component of one label, as voxels.
 struct VoxelRegion {
     std::int32_t label = 0;
-    int component = 0;                  ///< 0 is the label's largest
+    int component = 0;  ///< 0 is the label's largest
     std::int64_t voxels = 0;
     Index3 min{0, 0, 0}, max{0, 0, 0};  ///< index box, both ends inclusive
 };
@@ -43,10 +43,9 @@ struct RegionMap {
 /// Finds the components of the asked labels and marks what is thin: voxels
 /// that no block of 3 x 3 x 3 voxels of their owner covers, in parts that
 /// reach at least three voxels away from what such blocks cover, or that join
-/// two parts of it. Bumps and the rims of steps are not thin in this sense; they are what smoothing is
-/// for. The background is judged like any other owner.
-/// Throws InputError when a label is 0 or not in the volume, ResourceError
-/// when there are more components than owners can be numbered.
+/// two parts of it. Bumps and the rims of steps are not thin in this sense; they are what smoothing
+/// is for. The background is judged like any other owner. Throws InputError when a label is 0 or
+/// not in the volume, ResourceError when there are more components than owners can be numbered.
 [[nodiscard]] RegionMap map_regions(const LabelVolume& volume,
                                     std::span<const std::int32_t> labels);
 

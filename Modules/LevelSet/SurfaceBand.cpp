@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/SurfaceBand.h"
 
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
 
 namespace myotet::levelset {
 namespace {
@@ -79,9 +79,8 @@ Band surface_band(const TriMesh& surface, double spacing, double half_width,
     grid->tree().getNodes(leaves);
     std::sort(leaves.begin(), leaves.end(),
               [](const Leaf* a, const Leaf* b) { return a->origin() < b->origin(); });
-    band.block_of.assign(
-        static_cast<std::size_t>(band.blocks[0]) * band.blocks[1] * band.blocks[2],
-        Band::kOutside);
+    band.block_of.assign(static_cast<std::size_t>(band.blocks[0]) * band.blocks[1] * band.blocks[2],
+                         Band::kOutside);
     for (const Leaf* leaf : leaves) {
         const openvdb::Coord c = leaf->origin();
         const Index3 place{c.x() / n, c.y() / n, c.z() / n};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSet/VoxelBand.h"
 
-#include "Core/Parallel.h"
-#include "LevelSet/Redistance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "Core/Parallel.h"
+#include "LevelSet/Redistance.h"
 
 namespace myotet::levelset {
 namespace {
@@ -148,8 +148,8 @@ void lay_table(const RegionMap& map, RegionMap::Owner owner, const SharedLattice
 
 std::int8_t lock_of(double boxes, bool inside, bool thin, const Allowance& allowance,
                     const SharedLattice& lattice, double unit) {
-    const double allowed = thin ? std::min(allowance.thin_voxels, allowance.voxels)
-                                : allowance.voxels;
+    const double allowed =
+        thin ? std::min(allowance.thin_voxels, allowance.voxels) : allowance.voxels;
     if (!(boxes >= allowed - kRounding)) return 0;
     // (boxes - allowed) changes by at most 1 / the smallest voxel side a mm, so
     // that as a bound in mm it asks for no slope above one. At the allowance's
@@ -160,16 +160,15 @@ std::int8_t lock_of(double boxes, bool inside, bool thin, const Allowance& allow
     return static_cast<std::int8_t>(inside ? -lock : lock);
 }
 
-void fill_block(const Prober& prober, const VoxelScene& scene, std::size_t b,
-                RegionBand& region) {
+void fill_block(const Prober& prober, const VoxelScene& scene, std::size_t b, RegionBand& region) {
     Band& band = region.band;
     const SharedLattice& lattice = scene.lattice;
     const Index3 p = band.position[b];
     float* values = band.block(static_cast<std::int32_t>(b));
     std::int8_t* locks = region.locks.data() + b * Band::kSize;
     const auto claims = claims_of_block(
-        scene.claims, lattice.slot({p[0] + region.first[0], p[1] + region.first[1],
-                                    p[2] + region.first[2]}));
+        scene.claims,
+        lattice.slot({p[0] + region.first[0], p[1] + region.first[1], p[2] + region.first[2]}));
     auto claim = claims.begin();
     for (int at = 0; at < Band::kSize; ++at) {
         const Vec3 sample(p[0] * kSide + at % kSide, p[1] * kSide + at / kSide % kSide,

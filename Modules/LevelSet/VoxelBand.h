@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "LevelSet/Band.h"
 #include "LevelSet/Claims.h"
 #include "LevelSet/RegionMap.h"
-
-#include <vector>
 
 namespace myotet::levelset {
 
 /// How far smoothing may carry an interface away from the voxels' walls.
 struct Allowance {
-    double voxels = 0.5;       ///< of a voxel's side along each axis; infinite: no bound
-    double thin_voxels = 0.15; ///< the same inside sheets, tubes and specks
+    double voxels = 0.5;        ///< of a voxel's side along each axis; infinite: no bound
+    double thin_voxels = 0.15;  ///< the same inside sheets, tubes and specks
 };
 
 /// A region while it is worked on.
 struct RegionBand {
-    Index3 first{0, 0, 0};            ///< the band's first block among the shared lattice's
+    Index3 first{0, 0, 0};  ///< the band's first block among the shared lattice's
     Band band;
     /// Per sample: the side that a sample beyond the allowance must stay on, as
     /// a bound on phi: phi <= lock * unit where lock < 0, phi >= lock * unit
     /// where lock > 0; odd locks are due to thin parts.
     std::vector<std::int8_t> locks;
-    double lock_unit = 0;             ///< mm
-    bool held_back = false;           ///< a lock of a thin part stopped the flow
+    double lock_unit = 0;    ///< mm
+    bool held_back = false;  ///< a lock of a thin part stopped the flow
 };
 
 /// What all regions of a volume are measured with.
@@ -33,7 +33,7 @@ struct VoxelScene {
     const SharedLattice& lattice;
     const std::vector<Claim>& claims;
     Allowance allowance;
-    double width = 3;         ///< of the bands, in samples
+    double width = 3;  ///< of the bands, in samples
 };
 
 /// Signed distances from the walls of the voxels of `owner`, exact next to the

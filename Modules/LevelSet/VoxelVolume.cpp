@@ -27,13 +27,14 @@ void deposit(const RegionBand& region, const Vec3& centre, const Vec3& side, dou
     for (int k = first[2]; k <= last[2]; ++k)
         for (int j = first[1]; j <= last[1]; ++j)
             for (int i = first[0]; i <= last[0]; ++i) {
-                const std::int32_t number = region.band.find(
-                    {i / kCellsABlock, j / kCellsABlock, k / kCellsABlock});
+                const std::int32_t number =
+                    region.band.find({i / kCellsABlock, j / kCellsABlock, k / kCellsABlock});
                 if (number < 0) continue;
-                const int at = ((k % kCellsABlock) * kCellsABlock + j % kCellsABlock) * kCellsABlock +
-                               i % kCellsABlock;
-                out[number][at] += static_cast<float>(density * overlap(0, i) * overlap(1, j) *
-                                                      overlap(2, k));
+                const int at =
+                    ((k % kCellsABlock) * kCellsABlock + j % kCellsABlock) * kCellsABlock +
+                    i % kCellsABlock;
+                out[number][at] +=
+                    static_cast<float>(density * overlap(0, i) * overlap(1, j) * overlap(2, k));
             }
 }
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Meshing/Compress.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Meshing/NodeEnergy.h"
 #include "Meshing/Stars.h"
 #include "Quality/Quality.h"
-
-#include <Eigen/Cholesky>
-
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <limits>
 
 namespace myotet::meshing {
 namespace {
@@ -49,7 +48,10 @@ struct Stage {
 class Compressor {
 public:
     Compressor(TetMesh& mesh, const LevelSet& phi)
-        : x_(mesh.points), phi_(phi), stars_(mesh), dirty_(mesh.points.size(), 1),
+        : x_(mesh.points),
+          phi_(phi),
+          stars_(mesh),
+          dirty_(mesh.points.size(), 1),
           weight_(mesh.points.size(), 1) {
         std::vector<double> scales;
         for (std::size_t v = 0; v < x_.size(); ++v)

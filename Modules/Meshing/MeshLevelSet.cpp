@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Meshing/MeshLevelSet.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "Core/Errors.h"
 #include "Core/Stopwatch.h"
 #include "Meshing/Compress.h"
 #include "Meshing/Refine.h"
 #include "Meshing/Select.h"
 #include "Quality/Quality.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace myotet::meshing {
 namespace {
@@ -118,8 +118,7 @@ public:
                     .aspect_ratio > kShapeFault)
                 faults.push_back(red_[t]);
         }
-        if (static_cast<double>(faults.size()) >
-            kFewFaults * static_cast<double>(mesh.tets.size()))
+        if (static_cast<double>(faults.size()) > kFewFaults * static_cast<double>(mesh.tets.size()))
             return false;
         return refine(faults);
     }

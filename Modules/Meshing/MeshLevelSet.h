@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Progress.h"
-#include "Core/TetMesh.h"
-#include "LevelSet/LevelSet.h"
-
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "Core/Progress.h"
+#include "Core/TetMesh.h"
+#include "LevelSet/LevelSet.h"
 
 namespace myotet::meshing {
 
@@ -16,41 +16,42 @@ using SizingFunction = std::function<double(const Vec3&)>;
 
 /// How a level set becomes tetrahedra.
 struct Options {
-    double edge_length = 0;            ///< target edge on the surface, mm; must be positive
-    double interior_edge_length = 0;   ///< how coarse the inside may grow, mm; 0: 4x edge_length
-    double smallest_edge_length = 0;   ///< how fine thin or curved parts may get, mm; 0: edge_length / 8
-    double curvature_factor = 0;       ///< refine where edge > factor / (|k1| + |k2|); 0: off
-    double thickness_factor = 1.0;     ///< refine where edge > factor * local thickness; 0: off
-    int components = 1;                ///< connected pieces that phi < 0 has; 0: not known, keep all
-    double volume = 0;                 ///< volume that the mesh shall have, mm^3; 0: as phi says
+    double edge_length = 0;           ///< target edge on the surface, mm; must be positive
+    double interior_edge_length = 0;  ///< how coarse the inside may grow, mm; 0: 4x edge_length
+    double smallest_edge_length =
+        0;                        ///< how fine thin or curved parts may get, mm; 0: edge_length / 8
+    double curvature_factor = 0;  ///< refine where edge > factor / (|k1| + |k2|); 0: off
+    double thickness_factor = 1.0;  ///< refine where edge > factor * local thickness; 0: off
+    int components = 1;             ///< connected pieces that phi < 0 has; 0: not known, keep all
+    double volume = 0;              ///< volume that the mesh shall have, mm^3; 0: as phi says
     /// Refine where the finished surface is farther from phi = 0 than this part of
     /// the edge length, then select and compress again; 0: off.
     double distance_factor = 0.08;
-    int distance_rounds = 3;           ///< times that this may be done
+    int distance_rounds = 3;  ///< times that this may be done
     /// Stop after the lattice fits when it has fewer or more tetrahedra than these;
     /// 0: no bound. The mesh is then valid but not finished.
     std::int64_t least_tets = 0, most_tets = 0;
-    SizingFunction sizing = {};            ///< empty: none
+    SizingFunction sizing = {};  ///< empty: none
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
 
 /// Where the time went and what was done on the way.
 struct Summary {
-    double edge_length = 0;            ///< lattice edge used at the surface, mm
-    int levels = 0;                    ///< red levels below the coarsest
+    double edge_length = 0;  ///< lattice edge used at the surface, mm
+    int levels = 0;          ///< red levels below the coarsest
     int selection_passes = 0;
-    int distance_rounds = 0;           ///< times the lattice was refined for the surface distance
-    int fault_rounds = 0;              ///< times it was refined at faults of the finished mesh
+    int distance_rounds = 0;  ///< times the lattice was refined for the surface distance
+    int fault_rounds = 0;     ///< times it was refined at faults of the finished mesh
     std::int64_t candidate_tets = 0;
-    bool out_of_bounds = false;        ///< stopped for Options::least_tets or most_tets
-    double volume_offset = 0;          ///< isovalue that the surface was fitted to, mm
+    bool out_of_bounds = false;  ///< stopped for Options::least_tets or most_tets
+    double volume_offset = 0;    ///< isovalue that the surface was fitted to, mm
     double seconds_lattice = 0, seconds_select = 0, seconds_compress = 0;
-    std::vector<std::string> notes;    ///< what a user should know, a sentence each
+    std::vector<std::string> notes;  ///< what a user should know, a sentence each
 };
 
 struct Result {
-    TetMesh mesh;     ///< local coordinates, mm; labels empty
+    TetMesh mesh;  ///< local coordinates, mm; labels empty
     Summary summary;
 };
 

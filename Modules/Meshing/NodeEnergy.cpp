@@ -19,7 +19,8 @@ constexpr std::size_t kLanes = 4;
 
 // Compiled for wider registers where the machine has them. AVX2 without fused
 // multiply-add rounds as SSE2 does, so the results are the same bytes.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define MYOTET_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define MYOTET_WIDE
@@ -58,8 +59,8 @@ void StarEnergy::add(const Vec3& p, const Vec3& q, const Vec3& r) {
     at[kSx * stride_] = s.x();
     at[kSy * stride_] = s.y();
     at[kSz * stride_] = s.z();
-    at[kE * stride_] = p.squaredNorm() + q.squaredNorm() + r.squaredNorm() +
-                       (p - q).squaredNorm() + (q - r).squaredNorm() + (r - p).squaredNorm();
+    at[kE * stride_] = p.squaredNorm() + q.squaredNorm() + r.squaredNorm() + (p - q).squaredNorm() +
+                       (q - r).squaredNorm() + (r - p).squaredNorm();
     at[kWeight * stride_] = 1;
 }
 
@@ -75,8 +76,9 @@ MYOTET_WIDE void sum_powers(const double* rows, std::size_t stride, const double
         for (std::size_t l = 0; l < kLanes; ++l) {
             v[l] = at[kNx * stride + l] * x[0] + at[kNy * stride + l] * x[1] +
                    at[kNz * stride + l] * x[2] - at[kD * stride + l];
-            const double s = xx - 2 * (at[kSx * stride + l] * x[0] + at[kSy * stride + l] * x[1] +
-                                       at[kSz * stride + l] * x[2]) +
+            const double s = xx -
+                             2 * (at[kSx * stride + l] * x[0] + at[kSy * stride + l] * x[1] +
+                                  at[kSz * stride + l] * x[2]) +
                              at[kE * stride + l];
             q[l] = kRegular * s * s * s / (v[l] * v[l]);
         }
@@ -103,8 +105,9 @@ MYOTET_WIDE void sum_expansions(const double* rows, std::size_t stride, const do
         for (std::size_t l = 0; l < kLanes; ++l) {
             v[l] = at[kNx * stride + l] * x[0] + at[kNy * stride + l] * x[1] +
                    at[kNz * stride + l] * x[2] - at[kD * stride + l];
-            s[l] = xx - 2 * (at[kSx * stride + l] * x[0] + at[kSy * stride + l] * x[1] +
-                             at[kSz * stride + l] * x[2]) +
+            s[l] = xx -
+                   2 * (at[kSx * stride + l] * x[0] + at[kSy * stride + l] * x[1] +
+                        at[kSz * stride + l] * x[2]) +
                    at[kE * stride + l];
             q[l] = kRegular * s[l] * s[l] * s[l] / (v[l] * v[l]);
         }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
-
 #include <span>
 #include <vector>
+
+#include "Core/Geometry.h"
 
 namespace myotet::meshing {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Meshing/Refine.h"
 
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "Core/Parallel.h"
 
 namespace myotet::meshing {
 namespace {
@@ -39,8 +39,8 @@ public:
         wanted_.resize(lattice.node_count());
         parallel_for(first, wanted_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                wanted_[i] = evaluate(lattice.position(static_cast<std::int32_t>(i)),
-                                      lattice.values()[i]);
+                wanted_[i] =
+                    evaluate(lattice.position(static_cast<std::int32_t>(i)), lattice.values()[i]);
         });
     }
     [[nodiscard]] float operator[](std::int32_t node) const { return wanted_[node]; }
@@ -52,8 +52,8 @@ private:
             if (options_.curvature_factor > 0) size = std::min(size, by_curvature(point));
             if (options_.thickness_factor > 0) {
                 const double longest = plan_.surface_edge / options_.thickness_factor;
-                size = std::min(size, options_.thickness_factor *
-                                          local_thickness(phi_, point, longest));
+                size = std::min(size,
+                                options_.thickness_factor * local_thickness(phi_, point, longest));
             }
         }
         return static_cast<float>(std::max(size, plan_.smallest_edge));
@@ -71,8 +71,7 @@ private:
         const double step = std::max(1.5 * phi_.spacing, 0.5 * plan_.smallest_edge);
         const auto k = levelset::principal_curvatures(phi_, foot, step);
         const double sum = std::abs(k[0]) + std::abs(k[1]);
-        return sum > 0 ? options_.curvature_factor / sum
-                       : std::numeric_limits<double>::infinity();
+        return sum > 0 ? options_.curvature_factor / sum : std::numeric_limits<double>::infinity();
     }
 
     const LevelSet& phi_;
@@ -106,10 +105,10 @@ Verdict judge(const RedGreenLattice& lattice, const WantedSize& wanted, const Op
 LevelPlan plan_levels(const Options& options) {
     LevelPlan plan;
     plan.surface_edge = options.edge_length / kSurfaceEdgeOfLattice;
-    const double interior = options.interior_edge_length > 0 ? options.interior_edge_length
-                                                             : 4 * options.edge_length;
-    const double smallest = options.smallest_edge_length > 0 ? options.smallest_edge_length
-                                                             : options.edge_length / 8;
+    const double interior =
+        options.interior_edge_length > 0 ? options.interior_edge_length : 4 * options.edge_length;
+    const double smallest =
+        options.smallest_edge_length > 0 ? options.smallest_edge_length : options.edge_length / 8;
     plan.coarsest_edge = plan.surface_edge;
     while (2 * plan.coarsest_edge * kSurfaceEdgeOfLattice <= interior * kSlack) {
         plan.coarsest_edge *= 2;

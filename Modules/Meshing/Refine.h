@@ -33,8 +33,7 @@ struct LevelPlan {
 /// [Teran05, sec. 5-6]: near the interface down to the surface edge, and
 /// further where curvature, thickness or the sizing function want it.
 [[nodiscard]] lattice::RedGreenLattice build_lattice(const levelset::LevelSet& phi,
-                                                     const Options& options,
-                                                     const LevelPlan& plan,
+                                                     const Options& options, const LevelPlan& plan,
                                                      ProgressSink& progress);
 
 }  // namespace myotet::meshing

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Meshing/Select.h"
 
+#include <algorithm>
+
 #include "Core/Errors.h"
 #include "Meshing/Selection.h"
-
-#include <algorithm>
 
 namespace myotet::meshing {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "Core/Progress.h"
 #include "Core/TetMesh.h"
 #include "Lattice/RedGreenLattice.h"
-
-#include <string>
-#include <vector>
 
 namespace myotet::meshing {
 

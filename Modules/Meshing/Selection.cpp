@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Meshing/Selection.h"
 
-#include "Core/Errors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
+
+#include "Core/Errors.h"
 
 namespace myotet::meshing {
 namespace {
@@ -45,8 +45,7 @@ struct BoundaryFans {
         opposite.resize(3 * faces.size());
         std::vector<std::int32_t> next(start.begin(), start.end() - 1);
         for (const Triangle& t : faces)
-            for (int i = 0; i < 3; ++i)
-                opposite[next[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
+            for (int i = 0; i < 3; ++i) opposite[next[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
     }
 
     [[nodiscard]] std::span<const Edge> fan(std::int32_t n) const {
@@ -210,8 +209,8 @@ bool Selection::join_pieces(int wanted) {
         ++size[piece_of[i]];
         for (const std::int32_t n : selected[i]) node_piece[n] = piece_of[i];
     }
-    const auto smallest = static_cast<std::int32_t>(
-        std::min_element(size.begin(), size.end()) - size.begin());
+    const auto smallest =
+        static_cast<std::int32_t>(std::min_element(size.begin(), size.end()) - size.begin());
 
     // Dijkstra from the smallest piece; ways outside cost more the farther out.
     const double scale = (position_(selected[0][0]) - position_(selected[0][1])).norm();

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-
 #include <functional>
 #include <span>
 #include <vector>
+
+#include "Core/TetMesh.h"
 
 namespace myotet::meshing {
 
 /// Where a selection breaks the rules of [Teran05, sec. 6].
 struct Trouble {
-    std::vector<std::int32_t> nodes;                  ///< non-manifold boundary nodes
-    std::vector<std::array<std::int32_t, 2>> edges;   ///< interior edges between boundary nodes, sorted
-    std::vector<std::int32_t> left_out;               ///< nodes well inside, in no selected tetrahedron
-    std::vector<std::int32_t> wishes;                 ///< boundary nodes with three faces
-    bool only_wishes = false;                         ///< nothing but wishes is left
+    std::vector<std::int32_t> nodes;  ///< non-manifold boundary nodes
+    std::vector<std::array<std::int32_t, 2>>
+        edges;                           ///< interior edges between boundary nodes, sorted
+    std::vector<std::int32_t> left_out;  ///< nodes well inside, in no selected tetrahedron
+    std::vector<std::int32_t> wishes;    ///< boundary nodes with three faces
+    bool only_wishes = false;            ///< nothing but wishes is left
 
     [[nodiscard]] bool empty() const {
         return nodes.empty() && edges.empty() && left_out.empty() && wishes.empty();

@@ -8,7 +8,8 @@
 namespace myotet::meshing {
 
 Stars::Stars(const TetMesh& mesh)
-    : scale(mesh.points.size(), 0), start_(mesh.points.size() + 1, 0),
+    : scale(mesh.points.size(), 0),
+      start_(mesh.points.size() + 1, 0),
       fan_start_(mesh.points.size() + 1, 0) {
     for (const Tet& t : mesh.tets)
         for (const std::int32_t n : t) ++start_[n + 1];

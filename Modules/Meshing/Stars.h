@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-
 #include <span>
 #include <vector>
+
+#include "Core/TetMesh.h"
 
 namespace myotet::meshing {
 

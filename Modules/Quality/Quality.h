@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-
 #include <functional>
+
+#include "Core/TetMesh.h"
 
 namespace myotet::quality {
 
@@ -34,7 +34,7 @@ struct Topology {
     std::int64_t non_manifold_vertices = 0;  ///< boundary nodes whose faces are not one fan
     std::int64_t tets_with_four_boundary_nodes = 0;
     std::int64_t interior_edges_joining_boundary_nodes = 0;
-    std::int64_t euler_characteristic = 0;   ///< of the boundary surface, V - E + F
+    std::int64_t euler_characteristic = 0;  ///< of the boundary surface, V - E + F
 };
 [[nodiscard]] Topology measure_topology(const std::vector<Tet>& tets, std::size_t point_count);
 

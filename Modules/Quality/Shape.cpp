@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Quality/Quality.h"
-
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "Core/Parallel.h"
+#include "Quality/Quality.h"
 
 namespace myotet::quality {
 namespace {
@@ -21,8 +20,8 @@ Partial measure_range(const TetMesh& mesh, std::size_t first, std::size_t last) 
     Partial p;
     for (std::size_t i = first; i < last; ++i) {
         const Tet& t = mesh.tets[i];
-        const Shape s = measure(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]],
-                                mesh.points[t[3]]);
+        const Shape s =
+            measure(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]);
         p.worst.min_dihedral_deg = std::min(p.worst.min_dihedral_deg, s.min_dihedral_deg);
         p.worst.max_dihedral_deg = std::max(p.worst.max_dihedral_deg, s.max_dihedral_deg);
         p.worst.max_aspect_ratio = std::max(p.worst.max_aspect_ratio, s.aspect_ratio);
@@ -59,8 +58,7 @@ Shape measure(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
             const Vec3 e = (*x[j] - *x[i]).normalized();
             const Vec3 u = (*x[k] - *x[i]) - e * e.dot(*x[k] - *x[i]);
             const Vec3 v = (*x[l] - *x[i]) - e * e.dot(*x[l] - *x[i]);
-            const double angle =
-                std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi;
+            const double angle = std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi;
             s.min_dihedral_deg = std::min(s.min_dihedral_deg, angle);
             s.max_dihedral_deg = std::max(s.max_dihedral_deg, angle);
         }
@@ -75,8 +73,8 @@ ShapeSummary measure_shapes(const TetMesh& mesh) {
     std::vector<Partial> parts(pieces);
     parallel_for(0, pieces, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            parts[i] = measure_range(mesh, i * kGrain,
-                                     std::min(mesh.tets.size(), (i + 1) * kGrain));
+            parts[i] =
+                measure_range(mesh, i * kGrain, std::min(mesh.tets.size(), (i + 1) * kGrain));
     });
     ShapeSummary total{180, 0, 0, 0, 0};
     double sum = 0;

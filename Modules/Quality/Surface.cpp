@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Quality/Quality.h"
-
-#include "Core/Parallel.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "Core/Parallel.h"
+#include "Quality/Quality.h"
 
 namespace myotet::quality {
 namespace {

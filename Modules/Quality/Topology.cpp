@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Quality/Quality.h"
-
 #include <algorithm>
 #include <array>
+
+#include "Quality/Quality.h"
 
 namespace myotet::quality {
 namespace {
@@ -71,9 +71,9 @@ Topology measure_topology(const std::vector<Tet>& tets, std::size_t point_count)
     t.non_manifold_vertices = count_bad_vertices(faces, point_count);
     t.boundary_manifold =
         !faces.empty() && t.non_manifold_edges == 0 && t.non_manifold_vertices == 0;
-    t.euler_characteristic =
-        std::count(on_boundary.begin(), on_boundary.end(), 1) -
-        static_cast<std::int64_t>(edges.size()) + static_cast<std::int64_t>(faces.size());
+    t.euler_characteristic = std::count(on_boundary.begin(), on_boundary.end(), 1) -
+                             static_cast<std::int64_t>(edges.size()) +
+                             static_cast<std::int64_t>(faces.size());
 
     std::vector<Edge> inner;
     for (const Tet& tet : tets) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/ByteStream.h"
 
-#include "Core/Errors.h"
-
 #include <zlib.h>
 
 #include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "Core/Errors.h"
 
 namespace myotet::segmentation {
 namespace {

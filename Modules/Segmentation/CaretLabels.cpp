@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Segmentation/Formats.h"
-
 #include <array>
 #include <charconv>
 #include <optional>
 #include <utility>
+
+#include "Segmentation/Formats.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/Census.h"
 
-#include "Core/Errors.h"
-#include "Segmentation/TextHeader.h"
-
 #include <algorithm>
 #include <charconv>
 #include <numeric>
 #include <unordered_map>
+
+#include "Core/Errors.h"
+#include "Segmentation/TextHeader.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <span>
 #include <string>
 #include <vector>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet::segmentation {
 

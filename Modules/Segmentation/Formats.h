@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-#include "Segmentation/ReadLabels.h"
-
 #include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "Core/LabelVolume.h"
+#include "Segmentation/ReadLabels.h"
 
 namespace myotet::segmentation {
 

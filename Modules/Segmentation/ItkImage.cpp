@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/ItkImage.h"
 
-#include "Core/Errors.h"
-
 #include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
 
 #include <algorithm>
+
+#include "Core/Errors.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <filesystem>
 #include <map>
 #include <string>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet::segmentation {
 

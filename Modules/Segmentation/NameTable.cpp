@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/NameTable.h"
 
-#include "Core/AtomicFile.h"
-#include "Core/Errors.h"
-#include "Segmentation/TextHeader.h"
-
 #include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <vector>
+
+#include "Core/AtomicFile.h"
+#include "Core/Errors.h"
+#include "Segmentation/TextHeader.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/NrrdHeader.h"
 
-#include "Core/Errors.h"
-#include "Segmentation/Formats.h"
-
 #include <optional>
 #include <sstream>
+
+#include "Core/Errors.h"
+#include "Segmentation/Formats.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-#include "Segmentation/Scalars.h"
-#include "Segmentation/TextHeader.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "Core/LabelVolume.h"
+#include "Segmentation/Scalars.h"
+#include "Segmentation/TextHeader.h"
 
 namespace myotet::segmentation {
 

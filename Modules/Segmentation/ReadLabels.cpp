@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/ReadLabels.h"
 
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
 #include "Core/AtomicFile.h"
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/NameTable.h"
 #include "Segmentation/TextHeader.h"
-
-#include <algorithm>
-#include <fstream>
-#include <limits>
-#include <sstream>
 
 namespace myotet::segmentation {
 namespace {
@@ -40,10 +40,14 @@ Format format_of(const fs::path& file) {
 
 LabelFile read_format(const fs::path& file) {
     switch (format_of(file)) {
-        case Format::nifti: return read_nifti(file);
-        case Format::nrrd: return read_nrrd(file);
-        case Format::metaimage: return read_metaimage(file);
-        case Format::none: break;
+        case Format::nifti:
+            return read_nifti(file);
+        case Format::nrrd:
+            return read_nrrd(file);
+        case Format::metaimage:
+            return read_metaimage(file);
+        case Format::none:
+            break;
     }
     refuse_format(file, ".nii, .nii.gz, .nrrd, .seg.nrrd, .mha or .mhd");
 }
@@ -61,17 +65,17 @@ void check_file(const fs::path& file) {
 
 /// The names in the file win over a table beside it, an explicit table over both.
 void add_names(LabelFile& result, const fs::path& file, const fs::path& explicit_table) {
-    if (!result.volume.names.empty()) result.names_from = file;
+    if (!result.layers.front().names.empty()) result.names_from = file;
     if (!explicit_table.empty()) {
         auto names = read_name_table(explicit_table);
-        names.merge(result.volume.names);  // for values that the table leaves out
-        result.volume.names = std::move(names);
+        names.merge(result.layers.front().names);  // for values that the table leaves out
+        result.layers.front().names = std::move(names);
         result.names_from = explicit_table;
-    } else if (result.volume.names.empty()) {
+    } else if (result.layers.front().names.empty()) {
         const std::optional<fs::path> beside = find_name_table(file);
         if (!beside) return;
         try {
-            result.volume.names = read_name_table(*beside);
+            result.layers.front().names = read_name_table(*beside);
             result.names_from = *beside;
         } catch (const Error& error) {
             result.warnings.push_back(
@@ -113,15 +117,15 @@ Index3 checked_size(const std::array<std::int64_t, 3>& size, const fs::path& fil
 
 bool is_label_file(const fs::path& file) { return format_of(file) != Format::none; }
 
-LabelFile read_labels(const fs::path& file, const fs::path& names) {
+LabelFile read_labels(const fs::path& file, const ReadOptions& options) {
     check_file(file);
     LabelFile result = read_format(file);
-    if (std::all_of(result.volume.values.begin(), result.volume.values.end(),
+    if (std::all_of(result.layers.front().values.begin(), result.layers.front().values.end(),
                     [](std::int32_t v) { return v == 0; }))
         throw InputError(file.string() +
                          ": holds no labels (every voxel is 0), but at least one is needed; check "
                          "that the segmentation was exported and not an empty layer");
-    add_names(result, file, names);
+    add_names(result, file, options.names);
     return result;
 }
 

@@ -1,30 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet::segmentation {
 
 /// What a label file says, checked, with the names found in it or beside it.
 struct LabelFile {
-    LabelVolume volume;
+    /// At least one, all on one grid. A file whose segments overlap has several:
+    /// a tissue is known by its layer and its value there.
+    std::vector<LabelVolume> layers = std::vector<LabelVolume>(1);
     std::filesystem::path names_from;   ///< table or file the names came from; empty: none
     std::vector<std::string> warnings;  ///< what the user should know, a sentence each
 };
 
+/// Which of a NIfTI file's two transforms places its voxels.
+enum class Orientation {
+    agreed,  ///< the sform where both agree within half a voxel; refused where they do not
+    sform,
+    qform,
+};
+
+/// How a label file is read.
+struct ReadOptions {
+    std::filesystem::path names;  ///< table of names; empty: the file's own, else one beside it
+    Orientation orientation = Orientation::agreed;
+    bool one_hot = false;  ///< 4D with a volume of 0 and 1 for each label, which may overlap
+};
+
 /// Reads .nii .nii.gz .nrrd .seg.nrrd .nhdr .mha .mhd. Names come from the table
-/// `names`, else from the file itself, else from a table beside it; a table
+/// options.names, else from the file itself, else from a table beside it; a table
 /// beside it that makes no sense is a warning.
 /// Throws IoError when the file cannot be read or is cut short, InputError when
 /// its content breaks a rule (NaN spacing, no labels, not whole numbers ...),
 /// ResourceError when it does not fit in memory.
 /// Memory: 4 bytes a voxel and a little; cost: one pass over the file.
 [[nodiscard]] LabelFile read_labels(const std::filesystem::path& file,
-                                    const std::filesystem::path& names = {});
+                                    const ReadOptions& options = {});
 
 /// Writes a label volume as .nii, .nii.gz, .nrrd or .mha, by the extension, in
 /// the smallest integer type that holds it; never half-written under its name.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cmath>
+
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/ItkImage.h"
 #include "Segmentation/Scalars.h"
 #include "Segmentation/TextHeader.h"
-
-#include <bit>
-#include <cmath>
 
 // The header is read here and not by ITK, whose MetaIO prints to the terminal
 // when it meets a damaged one.
@@ -142,8 +142,8 @@ LabelFile read_metaimage(const fs::path& file) {
     const TextHeader header = read_metaimage_header(file);
     const std::int64_t dimensions = dimensions_of(header, file);
     LabelFile result;
-    result.volume.size = size_of(header, dimensions, file);
-    result.volume.index_to_lps = transform_of(header, dimensions, file);
+    result.layers.front().size = size_of(header, dimensions, file);
+    result.layers.front().index_to_lps = transform_of(header, dimensions, file);
     if (first_of(header, {"ElementSpacing", "ElementSize"}).empty())
         result.warnings.push_back(file.string() + " does not say its spacing; 1 mm was assumed.");
 
@@ -152,9 +152,9 @@ LabelFile read_metaimage(const fs::path& file) {
     const std::string binary = header.get("binarydata");
     const ScalarLayout layout{type_of(header, file),
                               stored_big != (std::endian::native == std::endian::big),
-                              !binary.empty() && !is_true(binary), result.volume.size};
+                              !binary.empty() && !is_true(binary), result.layers.front().size};
     ByteStream stream = open_data(header, file);
-    result.volume.values = read_scalars(stream, layout, result.warnings);
+    result.layers.front().values = read_scalars(stream, layout, result.warnings);
     return result;
 }
 

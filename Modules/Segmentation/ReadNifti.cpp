@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Errors.h"
-#include "Segmentation/Formats.h"
-#include "Segmentation/Scalars.h"
-
 #include <nifti2_io.h>
 
 #include <algorithm>
@@ -11,6 +7,10 @@
 #include <cstring>
 #include <optional>
 #include <string>
+
+#include "Core/Errors.h"
+#include "Segmentation/Formats.h"
+#include "Segmentation/Scalars.h"
 
 namespace myotet::segmentation {
 namespace {
@@ -118,16 +118,26 @@ Index3 volume_size(const NiftiHeader& h, const fs::path& file) {
 
 ScalarType scalar_type(int datatype, const fs::path& file) {
     switch (datatype) {
-        case NIFTI_TYPE_INT8: return ScalarType::int8;
-        case NIFTI_TYPE_UINT8: return ScalarType::uint8;
-        case NIFTI_TYPE_INT16: return ScalarType::int16;
-        case NIFTI_TYPE_UINT16: return ScalarType::uint16;
-        case NIFTI_TYPE_INT32: return ScalarType::int32;
-        case NIFTI_TYPE_UINT32: return ScalarType::uint32;
-        case NIFTI_TYPE_INT64: return ScalarType::int64;
-        case NIFTI_TYPE_UINT64: return ScalarType::uint64;
-        case NIFTI_TYPE_FLOAT32: return ScalarType::float32;
-        case NIFTI_TYPE_FLOAT64: return ScalarType::float64;
+        case NIFTI_TYPE_INT8:
+            return ScalarType::int8;
+        case NIFTI_TYPE_UINT8:
+            return ScalarType::uint8;
+        case NIFTI_TYPE_INT16:
+            return ScalarType::int16;
+        case NIFTI_TYPE_UINT16:
+            return ScalarType::uint16;
+        case NIFTI_TYPE_INT32:
+            return ScalarType::int32;
+        case NIFTI_TYPE_UINT32:
+            return ScalarType::uint32;
+        case NIFTI_TYPE_INT64:
+            return ScalarType::int64;
+        case NIFTI_TYPE_UINT64:
+            return ScalarType::uint64;
+        case NIFTI_TYPE_FLOAT32:
+            return ScalarType::float32;
+        case NIFTI_TYPE_FLOAT64:
+            return ScalarType::float64;
         case NIFTI_TYPE_RGB24:
         case NIFTI_TYPE_RGBA32:
             refuse(file, "stores colours (datatype " + std::to_string(datatype) +
@@ -225,9 +235,12 @@ Eigen::Affine3d index_to_ras(const NiftiHeader& h, const Index3& size, const fs:
 /// Millimetres per unit of length that the header uses.
 double unit_in_mm(const NiftiHeader& h, const fs::path& file, std::vector<std::string>& warnings) {
     switch (XYZT_TO_SPACE(h.xyzt_units)) {
-        case NIFTI_UNITS_METER: return 1000;
-        case NIFTI_UNITS_MICRON: return 1e-3;
-        case NIFTI_UNITS_MM: return 1;
+        case NIFTI_UNITS_METER:
+            return 1000;
+        case NIFTI_UNITS_MICRON:
+            return 1e-3;
+        case NIFTI_UNITS_MM:
+            return 1;
         default:
             warnings.push_back(file.string() +
                                " does not say its unit of length; millimetres were assumed.");
@@ -277,7 +290,7 @@ LabelFile read_nifti(const fs::path& file) {
     ByteStream stream(file, starts_as_gzip(file) ? Coding::deflate : Coding::plain);
     const NiftiHeader h = read_header(stream);
     LabelFile result;
-    LabelVolume& volume = result.volume;
+    LabelVolume& volume = result.layers.front();
     volume.size = volume_size(h, file);
     const ScalarLayout layout{scalar_type(h.datatype, file), h.swapped, false, volume.size};
     check_scaling(h, file);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <sstream>
+
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/ItkImage.h"
 #include "Segmentation/NrrdHeader.h"
 #include "Segmentation/TextHeader.h"
-
-#include <algorithm>
-#include <bit>
-#include <charconv>
-#include <sstream>
 
 namespace myotet::segmentation {
 namespace {
@@ -27,13 +27,20 @@ std::uint64_t data_bytes(const NrrdMeaning& meaning) {
     std::uint64_t bytes = 8;
     switch (meaning.type) {
         case ScalarType::int8:
-        case ScalarType::uint8: bytes = 1; break;
+        case ScalarType::uint8:
+            bytes = 1;
+            break;
         case ScalarType::int16:
-        case ScalarType::uint16: bytes = 2; break;
+        case ScalarType::uint16:
+            bytes = 2;
+            break;
         case ScalarType::int32:
         case ScalarType::uint32:
-        case ScalarType::float32: bytes = 4; break;
-        default: break;
+        case ScalarType::float32:
+            bytes = 4;
+            break;
+        default:
+            break;
     }
     for (const int n : meaning.size) bytes *= static_cast<std::uint64_t>(n);
     return bytes;
@@ -125,9 +132,9 @@ LabelFile read_nrrd(const fs::path& file) {
     const TextHeader header = read_nrrd_header(file);
     NrrdMeaning meaning = interpret_nrrd(header, file);
     LabelFile result;
-    result.volume.size = meaning.size;
-    result.volume.index_to_lps = meaning.index_to_lps;
-    result.volume.names = segment_names(header);
+    result.layers.front().size = meaning.size;
+    result.layers.front().index_to_lps = meaning.index_to_lps;
+    result.layers.front().names = segment_names(header);
     result.warnings = std::move(meaning.warnings);
 
     const Storage storage = find_storage(header, file);
@@ -135,7 +142,7 @@ LabelFile read_nrrd(const fs::path& file) {
     ByteStream stream = open_data(header, storage, meaning, file);
     const ScalarLayout layout{meaning.type, stored_big != (std::endian::native == std::endian::big),
                               storage.ascii, meaning.size};
-    result.volume.values = read_scalars(stream, layout, result.warnings);
+    result.layers.front().values = read_scalars(stream, layout, result.warnings);
     return result;
 }
 

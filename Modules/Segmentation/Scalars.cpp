@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/Scalars.h"
 
-#include "Core/Errors.h"
-
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -11,6 +9,8 @@
 #include <limits>
 #include <new>
 #include <type_traits>
+
+#include "Core/Errors.h"
 
 namespace myotet::segmentation {
 namespace {
@@ -159,13 +159,17 @@ void read_ascii(ByteStream& stream, std::size_t count, Sink& sink) {
 std::size_t size_of(ScalarType type) {
     switch (type) {
         case ScalarType::int8:
-        case ScalarType::uint8: return 1;
+        case ScalarType::uint8:
+            return 1;
         case ScalarType::int16:
-        case ScalarType::uint16: return 2;
+        case ScalarType::uint16:
+            return 2;
         case ScalarType::int32:
         case ScalarType::uint32:
-        case ScalarType::float32: return 4;
-        default: return 8;
+        case ScalarType::float32:
+            return 4;
+        default:
+            return 8;
     }
 }
 
@@ -186,16 +190,26 @@ void read_into(Sink& sink, ByteStream& stream, const ScalarLayout& layout, std::
     const bool swap = layout.swap_bytes;
     if (layout.ascii) return read_ascii(stream, count, sink);
     switch (layout.type) {
-        case ScalarType::int8: return read_binary<std::int8_t>(stream, swap, count, sink);
-        case ScalarType::uint8: return read_binary<std::uint8_t>(stream, swap, count, sink);
-        case ScalarType::int16: return read_binary<std::int16_t>(stream, swap, count, sink);
-        case ScalarType::uint16: return read_binary<std::uint16_t>(stream, swap, count, sink);
-        case ScalarType::int32: return read_binary<std::int32_t>(stream, swap, count, sink);
-        case ScalarType::uint32: return read_binary<std::uint32_t>(stream, swap, count, sink);
-        case ScalarType::int64: return read_binary<std::int64_t>(stream, swap, count, sink);
-        case ScalarType::uint64: return read_binary<std::uint64_t>(stream, swap, count, sink);
-        case ScalarType::float32: return read_binary<float>(stream, swap, count, sink);
-        case ScalarType::float64: return read_binary<double>(stream, swap, count, sink);
+        case ScalarType::int8:
+            return read_binary<std::int8_t>(stream, swap, count, sink);
+        case ScalarType::uint8:
+            return read_binary<std::uint8_t>(stream, swap, count, sink);
+        case ScalarType::int16:
+            return read_binary<std::int16_t>(stream, swap, count, sink);
+        case ScalarType::uint16:
+            return read_binary<std::uint16_t>(stream, swap, count, sink);
+        case ScalarType::int32:
+            return read_binary<std::int32_t>(stream, swap, count, sink);
+        case ScalarType::uint32:
+            return read_binary<std::uint32_t>(stream, swap, count, sink);
+        case ScalarType::int64:
+            return read_binary<std::int64_t>(stream, swap, count, sink);
+        case ScalarType::uint64:
+            return read_binary<std::uint64_t>(stream, swap, count, sink);
+        case ScalarType::float32:
+            return read_binary<float>(stream, swap, count, sink);
+        case ScalarType::float64:
+            return read_binary<double>(stream, swap, count, sink);
     }
 }
 

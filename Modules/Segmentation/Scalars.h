@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
-#include "Segmentation/ByteStream.h"
-
 #include <string>
 #include <vector>
+
+#include "Core/Geometry.h"
+#include "Segmentation/ByteStream.h"
 
 namespace myotet::segmentation {
 

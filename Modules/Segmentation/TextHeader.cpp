@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/TextHeader.h"
 
-#include "Core/Errors.h"
-
 #include <charconv>
 #include <fstream>
+
+#include "Core/Errors.h"
 
 namespace myotet::segmentation {
 namespace {

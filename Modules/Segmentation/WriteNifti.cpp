@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Errors.h"
-#include "Segmentation/Formats.h"
-
 #include <nifti2_io.h>
 #include <zlib.h>
 
@@ -10,6 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+
+#include "Core/Errors.h"
+#include "Segmentation/Formats.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole jobs on real scans and surfaces, from file to files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
 #include "Core/TetMesh.h"
 #include "MeshFiles/MeshFiles.h"
 #include "MeshJob.h"
 #include "Segmentation/Census.h"
 #include "Segmentation/ReadLabels.h"
 #include "Support/TemporaryFolder.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <map>
 
 using namespace myotet;
 namespace fs = std::filesystem;
@@ -60,10 +60,11 @@ void expect_classic(const char* file, double processor_seconds) {
     expect_promises(t);
     EXPECT_EQ(t.components_in, t.components_out);
     const double edge = t.surface_edges.median;
-    std::printf("  aspect ratio %.2f, dihedral angles %.1f to %.1f, distance mean %.2f %% max "
-                "%.1f %%\n",
-                t.shapes.max_aspect_ratio, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
-                100 * t.distance.mean / edge, 100 * t.distance.max / edge);
+    std::printf(
+        "  aspect ratio %.2f, dihedral angles %.1f to %.1f, distance mean %.2f %% max "
+        "%.1f %%\n",
+        t.shapes.max_aspect_ratio, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
+        100 * t.distance.mean / edge, 100 * t.distance.max / edge);
     EXPECT_NEAR(static_cast<double>(t.tets), 1e5, 1e4);
     EXPECT_LE(t.shapes.max_aspect_ratio, kClassic.aspect_ratio);
     EXPECT_GE(t.shapes.min_dihedral_deg, kClassic.min_dihedral_deg);
@@ -75,7 +76,7 @@ void expect_classic(const char* file, double processor_seconds) {
 
 // Each mesh's centroid within a voxel of its label's.
 void expect_in_place(const fs::path& input, const app::RunReport& r, const fs::path& folder) {
-    const LabelVolume volume = segmentation::read_labels(input).volume;
+    const LabelVolume volume = segmentation::read_labels(input).layers.front();
     std::map<std::int32_t, Vec3> centroids;
     for (const auto& c : segmentation::count_labels(volume)) centroids[c.value] = c.centroid;
     const double voxel = volume.spacing().maxCoeff();

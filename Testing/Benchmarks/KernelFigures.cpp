@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Parallel.h"
-#include "Meshing/MeshLevelSet.h"
-#include "Meshing/Refine.h"
-#include "Meshing/Select.h"
-#include "Support/AnalyticLevelSet.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+
+#include "Core/Parallel.h"
+#include "Meshing/MeshLevelSet.h"
+#include "Meshing/Refine.h"
+#include "Meshing/Select.h"
+#include "Support/AnalyticLevelSet.h"
 
 using namespace myotet;
 
@@ -54,13 +54,14 @@ TEST(KernelFigures, LatticeAndSelectionMakeHalfAMillionTetrahedraASecond) {
         const meshing::Options options{.edge_length = 1.5, .interior_edge_length = interior};
         std::size_t tets = 0;
         const double seconds = least(processor_seconds, [&] {
-            auto lattice = meshing::build_lattice(level_set(), options,
-                                                  meshing::plan_levels(options), quiet);
+            auto lattice =
+                meshing::build_lattice(level_set(), options, meshing::plan_levels(options), quiet);
             tets = meshing::select_candidate(lattice, {}, quiet).mesh.tets.size();
         });
         ASSERT_GT(tets, 100000u);
         const double rate = static_cast<double>(tets) / seconds;
-        std::printf("interior edge %.1f: %zu tetrahedra, %.0f a second of processor time\n", interior, tets, rate);
+        std::printf("interior edge %.1f: %zu tetrahedra, %.0f a second of processor time\n",
+                    interior, tets, rate);
         EXPECT_GT(rate, kLatticeTetsPerSecond);
     }
 }
@@ -72,8 +73,8 @@ TEST(KernelFigures, CostGrowsInProportionToTheTetrahedra) {
     for (const double edge : {3.6, 2.2, 1.35}) {
         std::size_t tets = 0;
         const double seconds = least(processor_seconds, [&] {
-            tets = meshing::mesh_level_set(level_set(), {.edge_length = edge}, quiet)
-                       .mesh.tets.size();
+            tets =
+                meshing::mesh_level_set(level_set(), {.edge_length = edge}, quiet).mesh.tets.size();
         });
         const double each = seconds / static_cast<double>(tets);
         if (first == 0) first = each;

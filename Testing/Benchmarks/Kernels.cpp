@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stages of meshing on a torus of three sizes: tetrahedra per second of
 // processor time (all threads) and of wall time.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
 #include "Meshing/Compress.h"
 #include "Meshing/MeshLevelSet.h"
 #include "Meshing/Refine.h"
 #include "Meshing/Select.h"
 #include "Support/AnalyticLevelSet.h"
-
-#include <benchmark/benchmark.h>
-
-#include <cmath>
 
 namespace {
 
@@ -18,8 +18,7 @@ using namespace myotet;
 double torus(const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 30, p.z()) - 12; }
 
 const levelset::LevelSet& level_set() {
-    static const levelset::LevelSet phi =
-        support::sample_level_set(support::cube(48), 0.5, torus);
+    static const levelset::LevelSet phi = support::sample_level_set(support::cube(48), 0.5, torus);
     return phi;
 }
 
@@ -75,7 +74,13 @@ void BM_WholeMesh(benchmark::State& state) {
     report(state, tets);
 }
 
-#define MYOTET_SIZES ->Arg(400)->Arg(250)->Arg(150)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()
+#define MYOTET_SIZES                    \
+    ->Arg(400)                          \
+        ->Arg(250)                      \
+        ->Arg(150)                      \
+        ->Unit(benchmark::kMillisecond) \
+        ->MeasureProcessCPUTime()       \
+        ->UseRealTime()
 BENCHMARK(BM_LatticeAndSelectionUniform) MYOTET_SIZES;
 BENCHMARK(BM_LatticeAndSelectionAdaptive) MYOTET_SIZES;
 BENCHMARK(BM_Compression) MYOTET_SIZES;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Phantoms/Scene.h"
-#include "Phantoms/Shapes.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+
+#include "Phantoms/Scene.h"
+#include "Phantoms/Shapes.h"
 
 namespace myotet::phantoms {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Phantoms/Phantoms.h"
 
+#include <cmath>
+#include <numbers>
+#include <string>
+
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Phantoms/Scene.h"
 #include "Phantoms/Shapes.h"
-
-#include <cmath>
-#include <numbers>
-#include <string>
 
 namespace myotet::phantoms {
 namespace {

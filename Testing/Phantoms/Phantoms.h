@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <functional>
 #include <map>
 #include <string_view>
 #include <vector>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet::phantoms {
 

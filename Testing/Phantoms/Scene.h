@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-#include "Phantoms/Phantoms.h"
-
 #include <functional>
 #include <vector>
+
+#include "Core/LabelVolume.h"
+#include "Phantoms/Phantoms.h"
 
 namespace myotet::phantoms {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
-
 #include <vector>
+
+#include "Core/Geometry.h"
 
 namespace myotet::phantoms {
 

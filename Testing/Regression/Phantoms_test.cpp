@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole jobs on phantoms of known truth: from voxels to meshes.
-#include "MeshFiles/MeshFiles.h"
-#include "MeshJob.h"
 #include "Phantoms/Phantoms.h"
-#include "Quality/Quality.h"
-#include "Segmentation/ReadLabels.h"
-#include "Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
+
+#include "MeshFiles/MeshFiles.h"
+#include "MeshJob.h"
+#include "Quality/Quality.h"
+#include "Segmentation/ReadLabels.h"
+#include "Support/TemporaryFolder.h"
 
 using namespace myotet;
 
@@ -124,16 +124,14 @@ TEST(Phantom, ArmHasAllItsTissuesInPlace) {
 }
 
 TEST(Phantom, ObliqueAndLeftHandedScansLieWhereTheyShould) {
-    const Mat3 oblique =
-        (Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized())).toRotationMatrix();
+    const Mat3 oblique = (Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized())).toRotationMatrix();
     Mat3 left = oblique;
     left.col(0) *= -1;
     for (const Mat3& direction : {oblique, left}) {
-        const Made made = make("torus",
-                               {.spacing = Vec3(1, 1, 2),
-                                .direction = direction,
-                                .translation = Vec3(-40, 25, 310)},
-                               3);
+        const Made made = make(
+            "torus",
+            {.spacing = Vec3(1, 1, 2), .direction = direction, .translation = Vec3(-40, 25, 310)},
+            3);
         const auto& [label, mesh] = *made.meshes.begin();
         EXPECT_LT((centroid(mesh) - centroid_of_voxels(made.phantom.volume, label)).norm(), 1);
         expect_near_truth(made, kMaxOfVoxel);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/LevelSet.h"
-
 #include <cmath>
 #include <functional>
+
+#include "LevelSet/LevelSet.h"
 
 namespace myotet::support {
 
@@ -17,8 +17,8 @@ inline levelset::LevelSet sample_level_set(const Box& box, double spacing,
     phi.spacing = spacing;
     phi.band = box.diagonal();
     for (int a = 0; a < 3; ++a)
-        phi.bricks[a] = static_cast<int>(
-            std::ceil(box.extent()[a] / (spacing * LevelSet::kBrickCells)));
+        phi.bricks[a] =
+            static_cast<int>(std::ceil(box.extent()[a] / (spacing * LevelSet::kBrickCells)));
     const int count = phi.bricks[0] * phi.bricks[1] * phi.bricks[2];
     phi.coarse_spacing = 4 * spacing;
     for (int a = 0; a < 3; ++a) phi.coarse_size[a] = 2 * phi.bricks[a] + 1;
@@ -30,15 +30,14 @@ inline levelset::LevelSet sample_level_set(const Box& box, double spacing,
         for (int k = 0; k < n; ++k)
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
-                    phi.values.push_back(static_cast<float>(distance(
-                        phi.origin +
-                        spacing * Vec3(bi * m + i, bj * m + j, bk * m + k))));
+                    phi.values.push_back(static_cast<float>(
+                        distance(phi.origin + spacing * Vec3(bi * m + i, bj * m + j, bk * m + k))));
     }
     for (int k = 0; k < phi.coarse_size[2]; ++k)
         for (int j = 0; j < phi.coarse_size[1]; ++j)
             for (int i = 0; i < phi.coarse_size[0]; ++i)
-                phi.coarse_values.push_back(static_cast<float>(
-                    distance(phi.origin + phi.coarse_spacing * Vec3(i, j, k))));
+                phi.coarse_values.push_back(
+                    static_cast<float>(distance(phi.origin + phi.coarse_spacing * Vec3(i, j, k))));
     return phi;
 }
 

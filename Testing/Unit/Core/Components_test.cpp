@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/Components.h"
 
-#include "Core/Errors.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
+
+#include "Core/Errors.h"
 
 namespace myotet {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/Parallel.h"
 
-#include "Core/Errors.h"
-#include "Core/Progress.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "Core/Errors.h"
+#include "Core/Progress.h"
 
 using namespace myotet;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Core/TetMesh.h"
 
-#include "Core/Errors.h"
-
 #include <gtest/gtest.h>
+
+#include "Core/Errors.h"
 
 using namespace myotet;
 

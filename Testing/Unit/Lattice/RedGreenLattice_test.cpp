@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Lattice/RedGreenLattice.h"
 
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-#include "Lattice/Patterns.h"
-#include "Quality/Quality.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "Lattice/Patterns.h"
+#include "Quality/Quality.h"
 
 using namespace myotet;
 using namespace myotet::lattice;
@@ -48,7 +48,7 @@ void refine_surface(RedGreenLattice& lattice) {
             for (const std::int32_t n : t)
                 nearest = std::min(nearest, std::abs(lattice.values()[n]));
             verdicts.push_back(nearest < 0.6 * lattice.edge_length(level) ? Verdict::refine
-                                                                         : Verdict::keep);
+                                                                          : Verdict::keep);
         }
         lattice.apply(level, verdicts);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LevelSet/Band.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
+
+#include "LevelSet/Band.h"
 
 namespace myotet::test {
 

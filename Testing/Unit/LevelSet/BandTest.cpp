@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Band.h"
+#include <gtest/gtest.h>
 
 #include "BandShapes.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/Band.h"
 
 namespace myotet::levelset {
 namespace {

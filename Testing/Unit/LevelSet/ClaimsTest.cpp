@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Claims.h"
-
-#include "LabelShapes.h"
-#include "LevelSet/LabelGrid.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "LabelShapes.h"
+#include "LevelSet/Claims.h"
+#include "LevelSet/LabelGrid.h"
 
 namespace myotet::levelset {
 namespace {
@@ -38,8 +37,7 @@ TEST(Claims, every_speck_has_a_sample_however_wide_the_lattice) {
     RegionMap map;
     const auto claims = claims_of(thin_things({0.3, 0.3, 1}), 0.45, &map);
     std::set<RegionMap::Owner> owners;
-    for (const Claim& c : claims)
-        owners.insert(map.owner_at(c.voxel[0], c.voxel[1], c.voxel[2]));
+    for (const Claim& c : claims) owners.insert(map.owner_at(c.voxel[0], c.voxel[1], c.voxel[2]));
     EXPECT_EQ(owners.size(), map.regions.size());
     EXPECT_GT(map.regions.size(), 5u);
 }

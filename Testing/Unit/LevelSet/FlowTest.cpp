@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Flow.h"
+#include <gtest/gtest.h>
 
 #include "BandShapes.h"
 #include "Core/Errors.h"
+#include "LevelSet/Flow.h"
 #include "LevelSet/Redistance.h"
 #include "SurfaceShapes.h"
-
-#include <gtest/gtest.h>
 
 namespace myotet::levelset {
 namespace {
@@ -72,8 +71,7 @@ TEST(Flow, locked_samples_keep_their_side) {
     std::vector<std::int8_t> locks(band.values.size(), 0);
     for (std::size_t i = 0; i < locks.size(); ++i)
         if (band.values[i] < -1.4f) locks[i] = -51;
-    const auto stopped =
-        flow_by_mean_curvature(band, {locks, 0.01}, {.time = 3}, silent);
+    const auto stopped = flow_by_mean_curvature(band, {locks, 0.01}, {.time = 3}, silent);
     flow_by_mean_curvature(free, {no_locks, 0}, {.time = 3}, silent);
     EXPECT_GT(stopped, 0);
     EXPECT_LT(sample(band, {16, 16, 16}).value, -0.4);

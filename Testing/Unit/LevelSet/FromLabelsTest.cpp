@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/FromLabels.h"
-
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-#include "LabelShapes.h"
-#include "SurfaceShapes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "LabelShapes.h"
+#include "LevelSet/FromLabels.h"
+#include "SurfaceShapes.h"
 
 namespace myotet::levelset {
 namespace {
@@ -183,8 +182,9 @@ TEST(FromLabels, centroids_are_kept_in_any_orientation) {
         return i > 3 && i < 14 && j > 3 && j < 10 && k > 3 && k < 4 + i / 2 ? 1 : 0;
     };
     const Vec3 spacing(1, 0.8, 2);
-    const Mat3 turn = (Eigen::AngleAxisd(0.5, Vec3::UnitY()) *
-                       Eigen::AngleAxisd(0.3, Vec3::UnitX())).toRotationMatrix();
+    const Mat3 turn =
+        (Eigen::AngleAxisd(0.5, Vec3::UnitY()) * Eigen::AngleAxisd(0.3, Vec3::UnitX()))
+            .toRotationMatrix();
     Mat3 left = turn;
     left.col(2) = -left.col(2);
     Mat3 sheared = turn;
@@ -194,8 +194,7 @@ TEST(FromLabels, centroids_are_kept_in_any_orientation) {
         volume.index_to_lps.linear() = directions * spacing.asDiagonal();
         volume.index_to_lps.translation() = Vec3(-100, 40, 7);
         const auto sets = run(volume, {1});
-        const double off =
-            (centroid_lps(sets, sets.regions[0]) - label_centroid(volume, 1)).norm();
+        const double off = (centroid_lps(sets, sets.regions[0]) - label_centroid(volume, 1)).norm();
         EXPECT_LT(off, 0.25 * spacing.minCoeff());
         EXPECT_NEAR(volume_error(sets.regions[0]), 0, kVolumeTolerance);
     }
@@ -251,9 +250,8 @@ TEST(FromLabels, same_bytes_for_any_number_of_threads) {
 }
 
 TEST(FromLabels, bad_options_and_labels_are_refused) {
-    const auto volume = test::make_volume({8, 8, 8}, {1, 1, 1}, [](int i, int, int) {
-        return i < 4 ? 1 : 0;
-    });
+    const auto volume =
+        test::make_volume({8, 8, 8}, {1, 1, 1}, [](int i, int, int) { return i < 4 ? 1 : 0; });
     EXPECT_THROW((void)run(volume, {2}), InputError);
     for (const double bad : {-1.0, std::nan("")}) {
         LabelOptions options;
@@ -277,9 +275,8 @@ TEST(FromLabels, stages_are_reported_in_order) {
         void note(std::string_view) override {}
     } listener;
     const ThreadLimit limit(1);
-    const auto volume = test::make_volume({8, 8, 8}, {1, 1, 1}, [](int i, int, int) {
-        return i < 4 ? 1 : 0;
-    });
+    const auto volume =
+        test::make_volume({8, 8, 8}, {1, 1, 1}, [](int i, int, int) { return i < 4 ? 1 : 0; });
     (void)from_labels(volume, std::vector<std::int32_t>{1}, {}, listener);
     EXPECT_THAT(listener.stages,
                 testing::ElementsAre("distances", "smoothing", "partition", "level sets"));

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/FromSurface.h"
-
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-#include "SurfaceShapes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "LevelSet/FromSurface.h"
+#include "SurfaceShapes.h"
 
 namespace myotet::levelset {
 namespace {
@@ -47,7 +46,8 @@ TEST(FromSurface, error_at_the_surface_falls_with_the_square_of_the_spacing) {
         int count = 0;
         for (int i = 0; i < 60; ++i)
             for (int j = 0; j < 30; ++j, ++count) {
-                const double value = phi.value(test::torus_point(10, 4, 0.1 + i * 0.1047, j * 0.2094));
+                const double value =
+                    phi.value(test::torus_point(10, 4, 0.1 + i * 0.1047, j * 0.2094));
                 sum += value * value;
             }
         return std::sqrt(sum / count);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/GiveBack.h"
+#include <gtest/gtest.h>
 
 #include "BandShapes.h"
+#include "LevelSet/GiveBack.h"
 #include "LevelSet/Measure.h"
 #include "SurfaceShapes.h"
-
-#include <gtest/gtest.h>
 
 namespace myotet::levelset {
 namespace {
@@ -28,8 +27,7 @@ TEST(GiveBack, ripples_below_the_radius_are_left_as_the_flow_made_them) {
     ASSERT_EQ(before.size(), band.values.size());
     give_back(band, before, 4);
     // Flat before and after: nothing of the ripple, 0.4 high, comes back.
-    for (double x = 10; x < 22; x += 0.7)
-        EXPECT_NEAR(sample(band, {x, 16, 16}).value, 0, 0.1) << x;
+    for (double x = 10; x < 22; x += 0.7) EXPECT_NEAR(sample(band, {x, 16, 16}).value, 0, 0.1) << x;
 }
 
 TEST(GiveBack, missing_volume_is_gained_where_it_is_missing) {

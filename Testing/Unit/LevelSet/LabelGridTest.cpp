@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/LabelGrid.h"
+#include <gtest/gtest.h>
 
 #include "Core/Errors.h"
 #include "LabelShapes.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/LabelGrid.h"
 
 namespace myotet::levelset {
 namespace {
@@ -23,8 +22,9 @@ LabelGrid grid_of(const LabelVolume& volume, const LabelOptions& options = {}) {
     return lay_grid(volume, shared_walls(map, face_area(volume)), options);
 }
 
-const Mat3 kOblique = (Eigen::AngleAxisd(0.4, Vec3::UnitZ()) *
-                       Eigen::AngleAxisd(-0.3, Vec3::UnitX())).toRotationMatrix();
+const Mat3 kOblique =
+    (Eigen::AngleAxisd(0.4, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.3, Vec3::UnitX()))
+        .toRotationMatrix();
 
 TEST(LabelGrid, frame_is_right_handed_along_the_scan_and_positive_inside) {
     Mat3 left = kOblique;

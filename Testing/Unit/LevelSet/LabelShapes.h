@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-
 #include <functional>
+
+#include "Core/LabelVolume.h"
 
 namespace myotet::test {
 

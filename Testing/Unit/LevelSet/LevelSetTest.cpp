@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/LevelSet.h"
+#include <gtest/gtest.h>
 
 #include "BandShapes.h"
+#include "LevelSet/LevelSet.h"
 #include "SurfaceShapes.h"
-
-#include <gtest/gtest.h>
 
 namespace myotet::levelset {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Measure.h"
-
-#include "BandShapes.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include "BandShapes.h"
+#include "LevelSet/Measure.h"
 
 namespace myotet::levelset {
 namespace {
@@ -46,7 +45,9 @@ TEST(Measure, error_of_a_sphere_s_volume_falls_with_the_square_of_the_spacing) {
 }
 
 TEST(Measure, deepest_sample_of_a_box_is_half_its_side) {
-    const auto box = [](const Vec3& p) { return (p - Vec3(24, 24, 24)).cwiseAbs().maxCoeff() - 14; };
+    const auto box = [](const Vec3& p) {
+        return (p - Vec3(24, 24, 24)).cwiseAbs().maxCoeff() - 14;
+    };
     const Band band = test::make_band(box, 6, 1);
     // The ridge is met by a sample, whose foot is exact on a flat face.
     EXPECT_NEAR(inscribed_radius(assemble(band)), 14, 0.2);

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Necks.h"
+#include <gtest/gtest.h>
 
 #include "LabelShapes.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/Necks.h"
 
 namespace myotet::levelset {
 namespace {
 
 // Two blocks joined by a bar of one voxel, `length` long.
 RegionMap dumbbell(int length) {
-    const auto volume = test::make_volume({16 + length, 10, 10}, {1, 1, 1},
-                                          [=](int i, int j, int k) {
-        const bool block = j > 1 && j < 8 && k > 1 && k < 8 && i > 0 && i < 15 + length &&
-                           (i < 8 || i >= 8 + length);
-        return block || (j == 4 && k == 4 && i > 0 && i < 15 + length) ? 1 : 0;
-    });
+    const auto volume =
+        test::make_volume({16 + length, 10, 10}, {1, 1, 1}, [=](int i, int j, int k) {
+            const bool block = j > 1 && j < 8 && k > 1 && k < 8 && i > 0 && i < 15 + length &&
+                               (i < 8 || i >= 8 + length);
+            return block || (j == 4 && k == 4 && i > 0 && i < 15 + length) ? 1 : 0;
+        });
     return map_regions(volume, std::vector<std::int32_t>{1});
 }
 

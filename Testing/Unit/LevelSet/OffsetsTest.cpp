@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Offsets.h"
-
 #include <gtest/gtest.h>
+
+#include "LevelSet/Offsets.h"
 
 namespace myotet::levelset {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Partition.h"
+#include <gtest/gtest.h>
 
 #include "LabelShapes.h"
 #include "LevelSet/LabelGrid.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/Partition.h"
 
 namespace myotet::levelset {
 namespace {
@@ -37,8 +36,8 @@ TEST(Partition, gives_volumes_and_leaves_neither_gap_nor_overlap) {
     const auto claims = claim_samples(map, grid.lattice);
     std::vector<RegionBand> regions;
     for (int r = 0; r < 3; ++r) {
-        regions.push_back(voxel_band({map, grid.lattice, claims, {1, 1}, 3},
-                                     static_cast<RegionMap::Owner>(r)));
+        regions.push_back(
+            voxel_band({map, grid.lattice, claims, {1, 1}, 3}, static_cast<RegionMap::Owner>(r)));
         // Pushed apart: all claim too little.
         for (float& v : regions.back().band.values)
             if (std::abs(v) < regions.back().band.width) v += 0.2f;
@@ -60,7 +59,9 @@ TEST(Partition, gives_volumes_and_leaves_neither_gap_nor_overlap) {
                     first = std::min(first, v);
                 }
                 // At the bands' edge values are clamped one by one.
-                if (first > -2) { EXPECT_NEAR(first, -second, 1e-5); }
+                if (first > -2) {
+                    EXPECT_NEAR(first, -second, 1e-5);
+                }
             }
 }
 

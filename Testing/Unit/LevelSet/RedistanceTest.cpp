@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/Redistance.h"
+#include <gtest/gtest.h>
 
 #include "BandShapes.h"
 #include "Core/Parallel.h"
+#include "LevelSet/Redistance.h"
 #include "SurfaceShapes.h"
-
-#include <gtest/gtest.h>
 
 namespace myotet::levelset {
 namespace {

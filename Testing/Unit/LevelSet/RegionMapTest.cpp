@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/RegionMap.h"
+#include <gtest/gtest.h>
 
 #include "Core/Errors.h"
 #include "LabelShapes.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/RegionMap.h"
 
 namespace myotet::levelset {
 namespace {
@@ -36,9 +35,8 @@ TEST(RegionMap, components_come_by_label_then_size) {
 
 TEST(RegionMap, sheets_tubes_and_specks_are_thin_and_blocks_are_not) {
     const auto thin = [](const std::function<bool(int, int, int)>& inside) {
-        const auto volume = test::make_volume({24, 24, 24}, {1, 1, 1}, [&](int i, int j, int k) {
-            return inside(i, j, k) ? 1 : 0;
-        });
+        const auto volume = test::make_volume(
+            {24, 24, 24}, {1, 1, 1}, [&](int i, int j, int k) { return inside(i, j, k) ? 1 : 0; });
         return count_thin(map_regions(volume, kOne), 1);
     };
     const auto within = [](int x, int a, int b) { return x >= a && x < b; };
@@ -67,9 +65,8 @@ TEST(RegionMap, sheets_tubes_and_specks_are_thin_and_blocks_are_not) {
 }
 
 TEST(RegionMap, block_cut_by_the_border_is_not_thin) {
-    const auto volume = test::make_volume({8, 8, 8}, {1, 1, 1}, [](int i, int, int) {
-        return i < 4 ? 1 : 0;
-    });
+    const auto volume =
+        test::make_volume({8, 8, 8}, {1, 1, 1}, [](int i, int, int) { return i < 4 ? 1 : 0; });
     const RegionMap map = map_regions(volume, kOne);
     EXPECT_EQ(count_thin(map, 1), 0);
     EXPECT_EQ(count_thin(map, 0), 0);

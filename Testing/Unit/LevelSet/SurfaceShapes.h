@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/TetMesh.h"
-
 #include <cmath>
 #include <numbers>
+
+#include "Core/TetMesh.h"
 
 namespace myotet::test {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/VoxelBand.h"
+#include <gtest/gtest.h>
 
 #include "LabelShapes.h"
 #include "LevelSet/LabelGrid.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/VoxelBand.h"
 
 namespace myotet::levelset {
 namespace {
@@ -41,14 +40,13 @@ double box_distance(const Vec3& p, const Vec3& spacing) {
 TEST(VoxelBand, distances_next_to_the_walls_are_exact) {
     const Vec3 spacing(0.7, 0.7, 2);
     const Made m = make(box_volume(spacing), 0.5);
-    const RegionBand r =
-        voxel_band({m.map, m.grid.lattice, m.claims, {}, 3}, 1);
+    const RegionBand r = voxel_band({m.map, m.grid.lattice, m.claims, {}, 3}, 1);
     int seen = 0;
     for (std::size_t b = 0; b < r.band.position.size(); ++b)
         for (int at = 0; at < Band::kSize; ++at) {
             const Index3 p = r.band.position[b];
-            const Vec3 x = r.band.origin + 0.5 * Vec3(8 * p[0] + at % 8, 8 * p[1] + at / 8 % 8,
-                                                      8 * p[2] + at / 64);
+            const Vec3 x = r.band.origin +
+                           0.5 * Vec3(8 * p[0] + at % 8, 8 * p[1] + at / 8 % 8, 8 * p[2] + at / 64);
             const double exact = box_distance(m.grid.frame.to_lps(x), spacing);
             if (std::abs(exact) > 0.5) continue;
             ++seen;
@@ -79,8 +77,12 @@ TEST(VoxelBand, locks_hold_the_voxels_middles_and_what_lies_deeper) {
             EXPECT_GT(bound, -0.1);
             ++middles;
         }
-        if (v < -1.4f && v > -1.6f) { EXPECT_LT(bound, -0.9); }
-        if (v > 1.4f && v < 1.6f) { EXPECT_GT(bound, 0.9); }
+        if (v < -1.4f && v > -1.6f) {
+            EXPECT_LT(bound, -0.9);
+        }
+        if (v > 1.4f && v < 1.6f) {
+            EXPECT_GT(bound, 0.9);
+        }
     }
     EXPECT_GT(middles, 100);
 }

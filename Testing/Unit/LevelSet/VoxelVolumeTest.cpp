@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LevelSet/VoxelVolume.h"
+#include <gtest/gtest.h>
 
 #include "LabelShapes.h"
 #include "LevelSet/LabelGrid.h"
-
-#include <gtest/gtest.h>
+#include "LevelSet/VoxelVolume.h"
 
 namespace myotet::levelset {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Meshing/MeshLevelSet.h"
 
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-#include "Quality/Quality.h"
-#include "Support/AnalyticLevelSet.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
+#include "Quality/Quality.h"
+#include "Support/AnalyticLevelSet.h"
 
 using namespace myotet;
 using namespace myotet::meshing;
@@ -26,9 +26,7 @@ constexpr double kVolumeAsAsked = 2e-3;
 
 double sphere(const Vec3& p) { return p.norm() - 10; }
 
-double torus(const Vec3& p) {
-    return std::hypot(std::hypot(p.x(), p.y()) - 8, p.z()) - 3;
-}
+double torus(const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 8, p.z()) - 3; }
 
 // Two balls joined by a thin rod.
 double dumbbell(const Vec3& p) {
@@ -77,16 +75,14 @@ TEST(MeshLevelSet, TorusKeepsItsHole) {
     const auto phi = sample_level_set(cube(14), 0.5, torus);
     const Result r = mesh_level_set(phi, {.edge_length = 1.5}, quiet);
     expect_promises(r.mesh);
-    EXPECT_EQ(quality::measure_topology(r.mesh.tets, r.mesh.points.size()).euler_characteristic,
-              0);
+    EXPECT_EQ(quality::measure_topology(r.mesh.tets, r.mesh.points.size()).euler_characteristic, 0);
 }
 
 TEST(MeshLevelSet, VolumeAskedForIsReached) {
     const auto phi = sample_level_set(cube(14), 0.5, torus);
     const double exact = 2 * std::numbers::pi * std::numbers::pi * 8 * 9;
     for (const double factor : {0.97, 1.0, 1.03}) {
-        const Result r =
-            mesh_level_set(phi, {.edge_length = 2, .volume = factor * exact}, quiet);
+        const Result r = mesh_level_set(phi, {.edge_length = 2, .volume = factor * exact}, quiet);
         EXPECT_NEAR(volume(r.mesh) / (factor * exact), 1, kVolumeAsAsked);
         expect_promises(r.mesh);
     }
@@ -132,8 +128,7 @@ TEST(MeshLevelSet, AThinSheetKeepsItsVolumeAndItsTwoSides) {
     const Result r = mesh_level_set(phi, {.edge_length = 3, .volume = exact}, quiet);
     expect_promises(r.mesh);
     EXPECT_NEAR(volume(r.mesh) / exact, 1, 0.02);
-    EXPECT_EQ(quality::measure_topology(r.mesh.tets, r.mesh.points.size()).euler_characteristic,
-              2);
+    EXPECT_EQ(quality::measure_topology(r.mesh.tets, r.mesh.points.size()).euler_characteristic, 2);
 }
 
 TEST(MeshLevelSet, TwoBallsStayTwoWhenAskedAndSmallOnesAreMeshedToo) {
@@ -195,8 +190,8 @@ TEST(ForecastTets, IsOfTheRightOrder) {
     const auto phi = sample_level_set(cube(14), 0.5, sphere);
     const Options options{.edge_length = 1.5};
     const double found = static_cast<double>(mesh_level_set(phi, options, quiet).mesh.tets.size());
-    const double forecast = forecast_tets(4.0 / 3 * std::numbers::pi * 1000,
-                                          4 * std::numbers::pi * 100, options);
+    const double forecast =
+        forecast_tets(4.0 / 3 * std::numbers::pi * 1000, 4 * std::numbers::pi * 100, options);
     // A forecast guides a user's choice: a factor of two is what it promises.
     EXPECT_GT(forecast, found / 2);
     EXPECT_LT(forecast, found * 2);

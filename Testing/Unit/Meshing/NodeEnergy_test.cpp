@@ -15,7 +15,6 @@ namespace {
 // 1e-10 times third derivatives, rounding 1e-16 / 1e-5.
 constexpr double kStep = 1e-5, kGradientTolerance = 1e-6, kHessianTolerance = 1e-4;
 
-
 StarEnergy ring() {
     // An octahedron's eight corners around the origin, somewhat skewed.
     const Vec3 x[3] = {{1, 0.1, 0}, {-0.2, 1.1, 0.1}, {0.1, 0, 0.8}};

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Phantoms/Phantoms.h"
 
-#include "Core/Components.h"
-#include "Core/Errors.h"
-#include "Core/Parallel.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "Core/Components.h"
+#include "Core/Errors.h"
+#include "Core/Parallel.h"
 
 namespace myotet::phantoms {
 namespace {

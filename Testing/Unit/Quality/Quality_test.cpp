@@ -111,9 +111,7 @@ TEST(Topology, InteriorEdgeBetweenBoundaryNodes) {
     EXPECT_EQ(t.tets_with_four_boundary_nodes, ring);
 }
 
-TEST(Topology, AnEmptyMeshIsNoManifold) {
-    EXPECT_FALSE(measure_topology({}, 0).boundary_manifold);
-}
+TEST(Topology, AnEmptyMeshIsNoManifold) { EXPECT_FALSE(measure_topology({}, 0).boundary_manifold); }
 
 TEST(SurfaceDistance, SamplesNodesEdgesAndFaces) {
     const TetMesh m = regular();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/ByteStream.h"
 
-#include "Core/Errors.h"
-#include "Samples.h"
-
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <random>
+
+#include "Core/Errors.h"
+#include "Samples.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Segmentation/Formats.h"
-
 #include <gtest/gtest.h>
+
+#include "Segmentation/Formats.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/NameTable.h"
 
-#include "Core/Errors.h"
-#include "Samples.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "Core/Errors.h"
+#include "Samples.h"
 
 namespace myotet::segmentation {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/ReadLabels.h"
 
-#include "Core/Errors.h"
-#include "Samples.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+
+#include "Core/Errors.h"
+#include "Samples.h"
 
 namespace myotet::segmentation {
 namespace {
@@ -40,7 +40,7 @@ TEST_P(EveryFormat, KeepsValuesAndPlaceOfAnyScan) {
     for (const Mat3& axes : {Mat3(Vec3(1, 2, 3).asDiagonal()), samples::oblique_axes(), mirrored}) {
         const LabelVolume volume = samples::make_volume(axes);
         write_labels(volume, file);
-        expect_same(read_labels(file).volume, volume);
+        expect_same(read_labels(file).layers.front(), volume);
     }
 }
 
@@ -49,7 +49,7 @@ TEST_P(EveryFormat, KeepsLargeLabelValues) {
         LabelVolume volume = samples::make_volume();
         volume.values[17] = value;
         write_labels(volume, file);
-        EXPECT_EQ(read_labels(file).volume.values, volume.values);
+        EXPECT_EQ(read_labels(file).layers.front().values, volume.values);
     }
 }
 
@@ -61,7 +61,7 @@ TEST_P(EveryFormat, KeepsOneSliceAndOneVoxel) {
     voxel.values = {3};
     for (const LabelVolume& volume : {slice, voxel}) {
         write_labels(volume, file);
-        expect_same(read_labels(file).volume, volume);
+        expect_same(read_labels(file).layers.front(), volume);
     }
 }
 
@@ -85,7 +85,7 @@ TEST_P(EveryFormat, MeetsEveryDamagedByteWithoutHarm) {
             damaged[at] = static_cast<char>(damaged[at] ^ flip);
             samples::write_bytes(file, damaged);
             try {
-                const LabelVolume found = read_labels(file).volume;
+                const LabelVolume found = read_labels(file).layers.front();
                 if (checksum_covers_all) expect_same(found, samples::make_volume());
             } catch (const Error&) {
             }
@@ -131,10 +131,10 @@ TEST(ReadLabels, NamesTravelInNiftiAndNrrd) {
         write_labels(volume, file);
         const LabelFile found = read_labels(file);
         EXPECT_EQ(found.names_from, file);
-        ASSERT_EQ(found.volume.names.size(), 3u) << name;
+        ASSERT_EQ(found.layers.front().names.size(), 3u) << name;
         for (const auto& [value, label] : volume.names) {
-            EXPECT_EQ(found.volume.names.at(value).name, label.name);
-            EXPECT_EQ(found.volume.names.at(value).colour, label.colour);
+            EXPECT_EQ(found.layers.front().names.at(value).name, label.name);
+            EXPECT_EQ(found.layers.front().names.at(value).colour, label.colour);
         }
     }
 }
@@ -143,11 +143,11 @@ TEST(ReadLabels, ATableBesideNamesWhatTheFileDoesNot) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "scan.mha";
     write_labels(samples::make_volume(), file);
-    EXPECT_TRUE(read_labels(file).volume.names.empty());
+    EXPECT_TRUE(read_labels(file).layers.front().names.empty());
     samples::write_bytes(folder.path() / "scan_labels.txt", "1 brachialis\n3 triceps\n");
     const LabelFile found = read_labels(file);
     EXPECT_EQ(found.names_from, folder.path() / "scan_labels.txt");
-    EXPECT_EQ(found.volume.name_of(3), "triceps");
+    EXPECT_EQ(found.layers.front().name_of(3), "triceps");
 }
 
 TEST(ReadLabels, AnExplicitTableWinsOverTheFileAndKeepsItsOtherNames) {
@@ -155,9 +155,9 @@ TEST(ReadLabels, AnExplicitTableWinsOverTheFileAndKeepsItsOtherNames) {
     const fs::path file = folder.path() / "scan.nii.gz", table = folder.path() / "mine.txt";
     write_labels(samples::make_volume(), file);
     samples::write_bytes(table, "1 brachialis\n");
-    const LabelFile found = read_labels(file, table);
-    EXPECT_EQ(found.volume.name_of(1), "brachialis");
-    EXPECT_EQ(found.volume.name_of(4), "m. soleus");
+    const LabelFile found = read_labels(file, {.names = table});
+    EXPECT_EQ(found.layers.front().name_of(1), "brachialis");
+    EXPECT_EQ(found.layers.front().name_of(4), "m. soleus");
     EXPECT_EQ(found.names_from, table);
 }
 
@@ -168,11 +168,11 @@ TEST(ReadLabels, ABadTableBesideIsAWarningAndAnExplicitOneAnError) {
     const fs::path table =
         samples::write_bytes(folder.path() / "scan.txt", "Notes: patient moved.\n");
     const LabelFile found = read_labels(file);
-    EXPECT_TRUE(found.volume.names.empty());
+    EXPECT_TRUE(found.layers.front().names.empty());
     ASSERT_EQ(found.warnings.size(), 1u);
     EXPECT_THAT(found.warnings[0], HasSubstr("scan.txt"));
-    EXPECT_THROW((void)read_labels(file, table), InputError);
-    EXPECT_THROW((void)read_labels(file, folder.path() / "absent.txt"), IoError);
+    EXPECT_THROW((void)read_labels(file, {.names = table}), InputError);
+    EXPECT_THROW((void)read_labels(file, {.names = folder.path() / "absent.txt"}), IoError);
 }
 
 TEST(ReadLabels, RefusesWhatIsNoLabelFile) {

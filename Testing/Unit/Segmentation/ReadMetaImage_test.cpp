@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "Core/Errors.h"
 #include "Samples.h"
 #include "Segmentation/ReadLabels.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace myotet::segmentation {
 namespace {
@@ -48,9 +48,9 @@ protected:
 TEST_F(MetaImage, PutsVoxelsInLps) {
     const LabelFile found = read(header() + kData);
     EXPECT_TRUE(found.warnings.empty());
-    EXPECT_EQ(found.volume.index_to_lps * Vec3(1, 0, 0), Vec3(10, 22, 30));
-    EXPECT_EQ(found.volume.index_to_lps * Vec3(0, 1, 1), Vec3(13, 20, 34));
-    EXPECT_EQ(found.volume.values.back(), 7);
+    EXPECT_EQ(found.layers.front().index_to_lps * Vec3(1, 0, 0), Vec3(10, 22, 30));
+    EXPECT_EQ(found.layers.front().index_to_lps * Vec3(0, 1, 1), Vec3(13, 20, 34));
+    EXPECT_EQ(found.layers.front().values.back(), 7);
 }
 
 TEST_F(MetaImage, ReadsTextAndDetachedData) {

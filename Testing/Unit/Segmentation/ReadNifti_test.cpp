@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Core/Errors.h"
-#include "Samples.h"
-#include "Segmentation/ReadLabels.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
+
+#include "Core/Errors.h"
+#include "Samples.h"
+#include "Segmentation/ReadLabels.h"
 
 namespace myotet::segmentation {
 namespace {
@@ -41,15 +41,15 @@ protected:
 TEST_F(Nifti, PutsVoxelsInLps) {
     const LabelFile found = read(nifti_bytes());
     EXPECT_TRUE(found.warnings.empty());
-    EXPECT_EQ(found.volume.values, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+    EXPECT_EQ(found.layers.front().values, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
     // RAS (2 i + 10, 3 j + 20, 4 k + 30).
-    EXPECT_EQ(found.volume.index_to_lps * Vec3(1, 1, 1), Vec3(-12, -23, 34));
-    EXPECT_EQ(found.volume.spacing(), Vec3(2, 3, 4));
+    EXPECT_EQ(found.layers.front().index_to_lps * Vec3(1, 1, 1), Vec3(-12, -23, 34));
+    EXPECT_EQ(found.layers.front().spacing(), Vec3(2, 3, 4));
 }
 
 TEST_F(Nifti, KeepsAShearedTransform) {
     const LabelFile found = read(with(nifti_bytes(), kSrow + 4, 0.5F));
-    EXPECT_EQ(found.volume.index_to_lps * Vec3(0, 1, 0), Vec3(-10.5, -23, 30));
+    EXPECT_EQ(found.layers.front().index_to_lps * Vec3(0, 1, 0), Vec3(-10.5, -23, 30));
 }
 
 TEST_F(Nifti, UsesTheQformWhenThereIsNoSform) {
@@ -60,7 +60,7 @@ TEST_F(Nifti, UsesTheQformWhenThereIsNoSform) {
     const float pixdim[4] = {-1, 2, 3, 4};  // the sign mirrors k
     for (int n = 0; n < 6; ++n) bytes = with(bytes, kQuatern + 4 * n, quatern[n]);
     for (int n = 0; n < 4; ++n) bytes = with(bytes, kPixdim + 4 * n, pixdim[n]);
-    const Vec3 lps = read(bytes).volume.index_to_lps * Vec3(1, 1, 1);
+    const Vec3 lps = read(bytes).layers.front().index_to_lps * Vec3(1, 1, 1);
     constexpr double kFloat = 1e-5;  // the quaternion has 32 bit
     EXPECT_LT((lps - Vec3(-(1 - 3), -(2 + 2), 3 - 4)).norm(), kFloat);
 }
@@ -68,20 +68,20 @@ TEST_F(Nifti, UsesTheQformWhenThereIsNoSform) {
 TEST_F(Nifti, WarnsWhenThePlaceIsAmbiguous) {
     const std::string none = with(nifti_bytes(), kSformCode, std::int16_t{0});
     const LabelFile found = read(none);
-    EXPECT_EQ(found.volume.spacing(), Vec3(1, 1, 1));
+    EXPECT_EQ(found.layers.front().spacing(), Vec3(1, 1, 1));
     ASSERT_EQ(found.warnings.size(), 1u);
     EXPECT_THAT(found.warnings[0], HasSubstr("nothing of its place"));
     // A qform without rotation, at the origin: elsewhere than the sform.
     const LabelFile both = read(with(nifti_bytes(), kQformCode, std::int16_t{1}));
     ASSERT_EQ(both.warnings.size(), 1u);
     EXPECT_THAT(both.warnings[0], HasSubstr("the sform was used"));
-    EXPECT_EQ(both.volume.spacing(), Vec3(2, 3, 4));
+    EXPECT_EQ(both.layers.front().spacing(), Vec3(2, 3, 4));
 }
 
 TEST_F(Nifti, TakesTheUnitFromTheHeader) {
     std::string bytes = nifti_bytes();
     bytes[kUnits] = 1;
-    EXPECT_EQ(read(bytes).volume.spacing(), Vec3(2000, 3000, 4000));
+    EXPECT_EQ(read(bytes).layers.front().spacing(), Vec3(2000, 3000, 4000));
     bytes[kUnits] = 0;
     EXPECT_THAT(read(bytes).warnings,
                 ::testing::ElementsAre(HasSubstr("millimetres were assumed")));
@@ -147,8 +147,8 @@ TEST_F(Nifti, ReadsBothByteOrders) {
     swap(kQformCode, 2, 2);
     swap(kQuatern, 4, 18);
     const LabelFile found = read(bytes);
-    EXPECT_EQ(found.volume.spacing(), Vec3(2, 3, 4));
-    EXPECT_EQ(found.volume.values.back(), 7);
+    EXPECT_EQ(found.layers.front().spacing(), Vec3(2, 3, 4));
+    EXPECT_EQ(found.layers.front().values.back(), 7);
 }
 
 TEST_F(Nifti, SkipsExtensionsThatAreNotNames) {
@@ -157,8 +157,8 @@ TEST_F(Nifti, SkipsExtensionsThatAreNotNames) {
         std::string bytes = with(nifti_bytes(), kVoxOffset, 384.0F);
         bytes.insert(352, 32, '<');
         bytes = with(with(bytes, 348, char{1}), 352, claimed);
-        EXPECT_EQ(read(bytes).volume.values.back(), 7);
-        EXPECT_TRUE(read(bytes).volume.names.empty());
+        EXPECT_EQ(read(bytes).layers.front().values.back(), 7);
+        EXPECT_TRUE(read(bytes).layers.front().names.empty());
     }
 }
 

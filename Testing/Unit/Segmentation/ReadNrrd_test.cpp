@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "Core/Errors.h"
 #include "Samples.h"
 #include "Segmentation/ReadLabels.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace myotet::segmentation {
 namespace {
@@ -52,7 +52,7 @@ TEST_F(Nrrd, KeepsAShearedTransform) {
     const LabelFile found = read(header("space: LPS\nspace directions: (2,1,0) (0,3,0) (0,1,4)\n"
                                         "space origin: (0,0,0)\n\n") +
                                  kData);
-    EXPECT_LT((found.volume.index_to_lps * Vec3(1, 1, 1) - Vec3(2, 5, 4)).norm(), 1e-12);
+    EXPECT_LT((found.layers.front().index_to_lps * Vec3(1, 1, 1) - Vec3(2, 5, 4)).norm(), 1e-12);
 }
 
 TEST_F(Nrrd, ReadsTextAndDetachedData) {
@@ -61,9 +61,9 @@ TEST_F(Nrrd, ReadsTextAndDetachedData) {
     const auto detached =
         samples::write_bytes(folder.path() / "scan.nhdr",
                              header(kPlace + "line skip: 1\nbyte skip: 2\ndata file: data.raw\n"));
-    EXPECT_EQ(read_labels(detached).volume.values.back(), 7);
+    EXPECT_EQ(read_labels(detached).layers.front().values.back(), 7);
     samples::write_bytes(detached, header(kPlace + "byte skip: -1\ndata file: data.raw\n"));
-    EXPECT_EQ(read_labels(detached).volume.values.back(), 7);
+    EXPECT_EQ(read_labels(detached).layers.front().values.back(), 7);
 }
 
 TEST_F(Nrrd, ReadsSegmentNamesOfSlicer) {
@@ -72,9 +72,9 @@ TEST_F(Nrrd, ReadsSegmentNamesOfSlicer) {
                              "Segment0_Name:=cervical column\nSegment0_Color:=1 0.5 0\n"
                              "Segment1_ID:=ribs\nSegment1_LabelValue:=5\n\n") +
              kData);
-    EXPECT_EQ(found.volume.name_of(3), "cervical column");
-    EXPECT_EQ(found.volume.names.at(3).colour, (std::array<double, 3>{1, 0.5, 0}));
-    EXPECT_EQ(found.volume.name_of(5), "ribs");
+    EXPECT_EQ(found.layers.front().name_of(3), "cervical column");
+    EXPECT_EQ(found.layers.front().names.at(3).colour, (std::array<double, 3>{1, 0.5, 0}));
+    EXPECT_EQ(found.layers.front().name_of(5), "ribs");
     EXPECT_EQ(found.names_from, folder.path() / "scan.nrrd");
 }
 
@@ -86,7 +86,7 @@ TEST_F(Nrrd, TakesTheUnitFromTheHeader) {
 
 TEST_F(Nrrd, WarnsWhenThePlaceIsUnknown) {
     const LabelFile found = read(header("\n") + kData);
-    EXPECT_EQ(found.volume.spacing(), Vec3(1, 1, 1));
+    EXPECT_EQ(found.layers.front().spacing(), Vec3(1, 1, 1));
     EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("1 mm was assumed")));
     const LabelFile spaced = read(header("spacings: 2 3 4\n\n") + kData);
     EXPECT_EQ(spaced.volume.spacing(), Vec3(2, 3, 4));
@@ -124,8 +124,8 @@ TEST_F(Nrrd, TakesASoleLayer) {
         "space: left-anterior-superior\nspace directions: none (2,0,0) (0,3,0) (0,0,+4e0) none\n"
         "kinds: list domain domain domain none\nspace origin: (1,2,3)\n\n" +
         kData);
-    EXPECT_EQ(found.volume.size, (Index3{2, 2, 2}));
-    EXPECT_EQ(found.volume.index_to_lps * Vec3(1, 1, 1), Vec3(3, -5, 7));
+    EXPECT_EQ(found.layers.front().size, (Index3{2, 2, 2}));
+    EXPECT_EQ(found.layers.front().index_to_lps * Vec3(1, 1, 1), Vec3(3, -5, 7));
 }
 
 TEST_F(Nrrd, RefusesLayers) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/LabelVolume.h"
-#include "Support/TemporaryFolder.h"
-
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "Core/LabelVolume.h"
+#include "Support/TemporaryFolder.h"
 
 namespace myotet::segmentation::samples {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/Scalars.h"
 
-#include "Core/Errors.h"
-#include "Samples.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
+
+#include "Core/Errors.h"
+#include "Samples.h"
 
 namespace myotet::segmentation {
 namespace {

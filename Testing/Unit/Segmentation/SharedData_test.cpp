@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real label files and odd ones, where the shared data are at hand.
-#include "Core/Errors.h"
-#include "Segmentation/Census.h"
-#include "Segmentation/ReadLabels.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <set>
+
+#include "Core/Errors.h"
+#include "Segmentation/Census.h"
+#include "Segmentation/ReadLabels.h"
 
 namespace myotet::segmentation {
 namespace {
@@ -61,7 +61,7 @@ const std::set<std::string> kRead{"base.nii.gz",
 
 TEST(SharedData, OddFilesAreReadRightOrRefused) {
     if (!fs::exists(kOdd)) GTEST_SKIP() << kOdd << " is absent";
-    const LabelVolume base = read_labels(kOdd / "base.nii.gz").volume;
+    const LabelVolume base = read_labels(kOdd / "base.nii.gz").layers.front();
     int files = 0;
     for (const auto& entry : fs::directory_iterator(kOdd)) {
         const std::string name = entry.path().filename().string();
@@ -71,7 +71,7 @@ TEST(SharedData, OddFilesAreReadRightOrRefused) {
             EXPECT_THROW((void)read_labels(entry.path()), Error) << name;
             continue;
         }
-        const LabelVolume found = read_labels(entry.path()).volume;
+        const LabelVolume found = read_labels(entry.path()).layers.front();
         if (kRead.contains(name)) continue;
         EXPECT_EQ(found.values, base.values) << name;
         constexpr double kFloat = 1e-3;  // mm; NIfTI's quaternion has 32 bit
@@ -98,17 +98,19 @@ TEST(SharedData, ScansHaveTheirLabelsAndNames) {
           {"labels/slicerio/Segmentation.seg.nrrd", 7, 7, false}}) {
         if (!fs::exists(kData / e.file)) GTEST_SKIP() << kData / e.file << " is absent";
         const LabelFile found = read_labels(kData / e.file);
-        EXPECT_EQ(count_labels(found.volume).size(), e.labels) << e.file;
-        EXPECT_EQ(found.volume.names.size(), e.names) << e.file;
-        EXPECT_EQ(found.volume.index_to_lps.linear().determinant() < 0, e.left_handed) << e.file;
+        EXPECT_EQ(count_labels(found.layers.front()).size(), e.labels) << e.file;
+        EXPECT_EQ(found.layers.front().names.size(), e.names) << e.file;
+        EXPECT_EQ(found.layers.front().index_to_lps.linear().determinant() < 0, e.left_handed)
+            << e.file;
     }
 }
 
 TEST(SharedData, TheKneeIsInTheSamePlaceInBothItsFormats) {
     const fs::path knee = kData / "labels" / "spl_knee";
     if (!fs::exists(knee)) GTEST_SKIP() << knee << " is absent";
-    const LabelVolume fine = read_labels(knee / "spl_knee_seg.nrrd").volume;
-    const LabelVolume coarse = read_labels(knee / "spl_knee_seg_sub3_MODIFIED.nii.gz").volume;
+    const LabelVolume fine = read_labels(knee / "spl_knee_seg.nrrd").layers.front();
+    const LabelVolume coarse =
+        read_labels(knee / "spl_knee_seg_sub3_MODIFIED.nii.gz").layers.front();
     const auto counts = count_labels(fine), counts_coarse = count_labels(coarse);
     ASSERT_EQ(counts.size(), counts_coarse.size());
     // Every third voxel in the plane: a label of some size keeps its centroid
@@ -125,10 +127,10 @@ TEST(SharedData, AtlasesOfMricronHaveNames) {
     const fs::path folder = "/usr/share/mricron/templates";
     if (!fs::exists(folder / "aal.nii.gz")) GTEST_SKIP() << "package mricron-data is absent";
     const LabelFile aal = read_labels(folder / "aal.nii.gz");
-    EXPECT_EQ(count_labels(aal.volume).size(), 116u);
-    EXPECT_EQ(aal.volume.name_of(1), "Precentral_L");
-    EXPECT_EQ(aal.volume.names.size(), 116u);
-    EXPECT_EQ(read_labels(folder / "JHU-WhiteMatter-labels-2mm.nii.gz").volume.name_of(2),
+    EXPECT_EQ(count_labels(aal.layers.front()).size(), 116u);
+    EXPECT_EQ(aal.layers.front().name_of(1), "Precentral_L");
+    EXPECT_EQ(aal.layers.front().names.size(), 116u);
+    EXPECT_EQ(read_labels(folder / "JHU-WhiteMatter-labels-2mm.nii.gz").layers.front().name_of(2),
               "Pontine_crossing_tract_(a_part_of_MCP)");
 }
 
