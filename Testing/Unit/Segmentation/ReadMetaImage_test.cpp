@@ -54,12 +54,14 @@ TEST_F(MetaImage, PutsVoxelsInLps) {
 }
 
 TEST_F(MetaImage, ReadsTextAndDetachedData) {
-    EXPECT_EQ(
-        read(header("BinaryData", "BinaryData = False") + "0 1 2 3 4 5 6 7").volume.values.back(),
-        7);
-    samples::write_bytes(folder.path() / "scan.raw", kData);
-    EXPECT_EQ(read(header("ElementDataFile", "ElementDataFile = scan.raw")).volume.values.back(),
+    EXPECT_EQ(read(header("BinaryData", "BinaryData = False") + "0 1 2 3 4 5 6 7")
+                  .layers.front()
+                  .values.back(),
               7);
+    samples::write_bytes(folder.path() / "scan.raw", kData);
+    EXPECT_EQ(
+        read(header("ElementDataFile", "ElementDataFile = scan.raw")).layers.front().values.back(),
+        7);
 }
 
 TEST_F(MetaImage, ReadsBothByteOrders) {
@@ -67,7 +69,7 @@ TEST_F(MetaImage, ReadsBothByteOrders) {
     std::string data;
     for (const char c : kData) data += std::string{'\1', c};
     shorts.replace(shorts.find("MSB = False"), 11, "MSB = True");
-    EXPECT_EQ(read(shorts + data).volume.values.back(), 263);
+    EXPECT_EQ(read(shorts + data).layers.front().values.back(), 263);
 }
 
 TEST_F(MetaImage, RefusesWhatItCannotRead) {

@@ -40,11 +40,11 @@ protected:
 };
 
 TEST_F(Nrrd, PutsVoxelsInLpsWhateverItsOwnSpace) {
-    EXPECT_EQ(read(header(kPlace + "\n") + kData).volume.index_to_lps * Vec3(1, 1, 1),
+    EXPECT_EQ(read(header(kPlace + "\n") + kData).layers.front().index_to_lps * Vec3(1, 1, 1),
               Vec3(13, 22, 34));
     std::string ras = kPlace;
     ras.replace(ras.find("left-posterior-superior"), 23, "right-anterior-superior");
-    EXPECT_EQ(read(header(ras + "\n") + kData).volume.index_to_lps * Vec3(1, 1, 1),
+    EXPECT_EQ(read(header(ras + "\n") + kData).layers.front().index_to_lps * Vec3(1, 1, 1),
               Vec3(-13, -22, 34));
 }
 
@@ -56,7 +56,9 @@ TEST_F(Nrrd, KeepsAShearedTransform) {
 }
 
 TEST_F(Nrrd, ReadsTextAndDetachedData) {
-    EXPECT_EQ(read(header(kPlace + "\n", "ascii") + "0 1 2 3\n4 5 6 7\n").volume.values.back(), 7);
+    EXPECT_EQ(
+        read(header(kPlace + "\n", "ascii") + "0 1 2 3\n4 5 6 7\n").layers.front().values.back(),
+        7);
     samples::write_bytes(folder.path() / "data.raw", "skip\nxy" + kData);
     const auto detached =
         samples::write_bytes(folder.path() / "scan.nhdr",
@@ -80,7 +82,7 @@ TEST_F(Nrrd, ReadsSegmentNamesOfSlicer) {
 
 TEST_F(Nrrd, TakesTheUnitFromTheHeader) {
     const std::string cm = kPlace + "space units: \"cm\" \"cm\" \"cm\"\n\n";
-    EXPECT_EQ(read(header(cm) + kData).volume.spacing(), Vec3(20, 30, 40));
+    EXPECT_EQ(read(header(cm) + kData).layers.front().spacing(), Vec3(20, 30, 40));
     expect_refused(header(kPlace + "space units: \"inch\" \"inch\" \"inch\"\n\n") + kData, "inch");
 }
 
@@ -89,7 +91,7 @@ TEST_F(Nrrd, WarnsWhenThePlaceIsUnknown) {
     EXPECT_EQ(found.layers.front().spacing(), Vec3(1, 1, 1));
     EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("1 mm was assumed")));
     const LabelFile spaced = read(header("spacings: 2 3 4\n\n") + kData);
-    EXPECT_EQ(spaced.volume.spacing(), Vec3(2, 3, 4));
+    EXPECT_EQ(spaced.layers.front().spacing(), Vec3(2, 3, 4));
     EXPECT_THAT(spaced.warnings, ::testing::ElementsAre(HasSubstr("nothing of its place")));
 }
 
