@@ -31,6 +31,7 @@ struct LabelOptions {
 
 /// One connected component of one label.
 struct Region {
+    int layer = 0;  ///< of the file whose label it is; the caller sets it
     std::int32_t label = 0;
     int component = 0;  ///< 0 is the label's largest
     std::int64_t voxels = 0;
