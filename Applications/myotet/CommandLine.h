@@ -5,7 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "Segmentation/ReadLabels.h"
+
 namespace myotet::app {
+
+/// --names, --orientation and --one-hot: how a label file is read.
+void add_read_options(CLI::App& command, segmentation::ReadOptions& options);
 
 /// Accepts numbers above zero; CLI11's own check lets NaN and infinity pass.
 inline const CLI::Validator kPositive(
