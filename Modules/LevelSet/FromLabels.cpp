@@ -9,6 +9,7 @@
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "LevelSet/Changes.h"
 #include "LevelSet/Flow.h"
 #include "LevelSet/LabelGrid.h"
 #include "LevelSet/Measure.h"
@@ -102,6 +103,21 @@ Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand&
     return region;
 }
 
+// What each kind of smoothing asks of the grid.
+LabelOptions resolve(LabelOptions options, const LabelVolume& volume) {
+    if (options.smoothing == Smoothing::none) options.smooth = 0;
+    if (options.smoothing != Smoothing::constrained) return options;
+    const double side = plane_spacing(volume).minCoeff();
+    if (options.spacing == 0) options.spacing = side;
+    if (!(options.spacing <= side * (1 + 1e-6))) {
+        std::ostringstream out;
+        out << "spacing is " << options.spacing << " mm but constrained smoothing needs at most "
+            << side << " mm, the voxels' smallest side, to tell their centres apart";
+        throw InputError(out.str());
+    }
+    return options;
+}
+
 }  // namespace
 
 void LabelOptions::validate() const {
@@ -115,6 +131,8 @@ void LabelOptions::validate() const {
             "a length in mm, or 0 to have it chosen");
     require(std::isfinite(smooth), "smooth", smooth,
             "a length in mm, or negative to have it chosen");
+    require(smoothing != Smoothing::none || smooth <= 0, "smooth", smooth,
+            "0 where smoothing is none; ask for another kind of smoothing or for no distance");
     require(max_memory > 0, "max_memory", max_memory, "a positive number of bytes");
 }
 
@@ -124,7 +142,7 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     progress.report("distances", 0);
     RegionMap map = map_regions(volume, labels);
     const auto walls = shared_walls(map, face_area(volume));
-    const LabelGrid grid = lay_grid(volume, walls, options);
+    const LabelGrid grid = lay_grid(volume, walls, resolve(options, volume));
     const auto claims = claim_samples(map, grid.lattice);
     const VoxelScene scene{map, grid.lattice, claims, allowance_for(grid), kWorkWidth};
 
@@ -145,9 +163,13 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     out.smooth = grid.smooth;
     out.regions.resize(map.regions.size());
     work.front() = {};
+    std::vector<RegionChanges> changes(map.regions.size());
     each_region(map.regions.size(), "level sets", progress, [&](std::size_t r) {
         out.regions[r] = finish_region(map.regions[r], volume.voxel_volume(), work[r + 1]);
+        changes[r] = measure_changes(map, static_cast<RegionMap::Owner>(r + 1), grid.lattice,
+                                     out.regions[r].phi);
     });
+    out.smoothing = report_changes(out.regions, changes);
     return out;
 }
 

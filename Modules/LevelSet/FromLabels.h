@@ -11,12 +11,24 @@
 
 namespace myotet::levelset {
 
+/// What smoothing may do to a segmentation.
+enum class Smoothing {
+    /// Motion by mean curvature [Teran05, sec. 5], as far as LabelOptions::smooth allows.
+    curvature,
+    /// The same, but every voxel's centre stays in the region that its label
+    /// names (Whitaker 2000). Needs samples no farther apart than voxels.
+    constrained,
+    /// The voxels' walls as they are, staircase and all.
+    none,
+};
+
 /// How labels become level sets.
 struct LabelOptions {
     /// Sample distance of the isotropic grid, mm; 0 chooses it: the smallest
     /// voxel side where the work for that is modest (30 s, 0.8 GB by forecast),
     /// else wider, up to the geometric mean of the sides.
     double spacing = 0;
+    Smoothing smoothing = Smoothing::curvature;
     /// How far motion by mean curvature may move a sharp voxel corner, mm; 0 is no
     /// smoothing; negative chooses half the largest voxel side: the staircase of a
     /// smooth surface strays that far from it, and no more needs undoing. Up to one
@@ -42,12 +54,26 @@ struct Region {
     LevelSet phi;
 };
 
+/// What smoothing and volume restoration did to a label, all its components
+/// together, measured on the finished level sets.
+struct SmoothingReport {
+    std::int32_t label = 0;
+    /// Distance of the finished surface from the walls of the label's voxels,
+    /// over its area, mm.
+    double moved_mean = 0, moved_95 = 0, moved_max = 0;
+    double volume_before = 0;        ///< of the voxels, mm^3
+    double volume_after = 0;         ///< enclosed by phi = 0, mm^3
+    std::int64_t voxels_lost = 0;    ///< of the label, whose centre is now outside
+    std::int64_t voxels_gained = 0;  ///< not of the label, whose centre is now inside
+};
+
 /// All regions in one local frame, whose axes follow the scan's.
 struct LabelLevelSets {
-    Frame frame;                  ///< local coordinates to the patient's
-    double spacing = 0;           ///< as chosen, mm
-    double smooth = 0;            ///< as chosen, mm
-    std::vector<Region> regions;  ///< by label value, then by component
+    Frame frame;                             ///< local coordinates to the patient's
+    double spacing = 0;                      ///< as chosen, mm
+    double smooth = 0;                       ///< as chosen, mm
+    std::vector<Region> regions;             ///< by label value, then by component
+    std::vector<SmoothingReport> smoothing;  ///< by label value
 };
 
 /// Turns the components of `labels` (6-connected voxels) into signed distances
