@@ -23,4 +23,32 @@ void add_read_options(CLI::App& command, segmentation::ReadOptions& options) {
                      "a 4D file holds a volume of 0 and 1 for each label");
 }
 
+void add_scan_options(CLI::App& command, ScanOptions& options) {
+    command
+        .add_option("INPUT", options.input,
+                    "labels (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd, DICOM SEG .dcm) or a closed "
+                    "surface (.obj .off .stl .ply .vtp)")
+        ->required()
+        ->type_name("FILE");
+    command
+        .add_option("--labels", options.labels,
+                    "only these, by value, name or layer:value: 3,7,biceps,1:4 (default: all "
+                    "but 0)")
+        ->type_name("LIST");
+    add_read_options(command, options.reading);
+    command
+        .add_option("--input-unit", options.input_unit,
+                    "what a surface file's numbers mean: mm, cm or m (default: mm)")
+        ->check(CLI::IsMember({"mm", "cm", "m"}));
+}
+
+void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {
+    command
+        .add_option("--smooth", choices.smooth,
+                    "how far smoothing may move a sharp voxel corner, mm (default: from the "
+                    "voxels; 0: none)")
+        ->check(kNotNegative)
+        ->type_name("MM");
+}
+
 }  // namespace myotet::app

@@ -5,12 +5,20 @@
 #include <cmath>
 #include <string>
 
+#include "LevelSetStage.h"
+#include "Scan.h"
 #include "Segmentation/ReadLabels.h"
 
 namespace myotet::app {
 
 /// --names, --orientation and --one-hot: how a label file is read.
 void add_read_options(CLI::App& command, segmentation::ReadOptions& options);
+
+/// INPUT, --labels, those of add_read_options and --input-unit.
+void add_scan_options(CLI::App& command, ScanOptions& options);
+
+/// --smooth and what else becomes of the labels before they are results.
+void add_level_set_options(CLI::App& command, LevelSetChoices& choices);
 
 /// Accepts numbers above zero; CLI11's own check lets NaN and infinity pass.
 inline const CLI::Validator kPositive(

@@ -4,8 +4,8 @@
 #include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
-#include "JobStages.h"
 #include "Machine.h"
+#include "MeshStages.h"
 #include "ReportText.h"
 
 namespace myotet::app {
@@ -13,7 +13,7 @@ namespace {
 
 Scan read(const JobOptions& options, ProgressSink& progress) {
     progress.report("reading", 0);
-    Scan scan = read_scan(options);
+    Scan scan = read_scan(options.scan);
     for (const std::string& warning : scan.warnings) progress.warn(warning);
     return scan;
 }
@@ -41,8 +41,10 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     progress.check();
     seconds["read"] = watch.lap();
 
-    levelset::LabelLevelSets sets = make_level_sets(scan, sizes, options, progress);
-    scan.volume.reset();
+    LevelSetChoices choices = options.level_sets;
+    if (scan.surface) choices.spacing = level_set_spacing(sizes, scan);
+    TissueSets sets = make_level_sets(scan, choices, progress);
+    scan.layers.clear();
     seconds["level_sets"] = watch.lap();
 
     std::vector<TissueMesh> tissues = mesh_to_size(sets, scan, sizes, options.sizes.tets, progress);

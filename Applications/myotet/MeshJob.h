@@ -5,22 +5,21 @@
 #include <string>
 
 #include "Core/Progress.h"
+#include "LevelSetStage.h"
 #include "MeshReport.h"
+#include "Scan.h"
 #include "Sizing.h"
 
 namespace myotet::app {
 
 /// What `myotet mesh` was asked for.
 struct JobOptions {
-    std::filesystem::path input;   ///< label volume or closed surface
+    ScanOptions scan;
     std::filesystem::path output;  ///< folder
-    std::string labels;            ///< values or names, by commas; empty: all but 0
-    std::filesystem::path names;   ///< name table; empty: look beside the input
     SizeOptions sizes;
-    double smooth = -1;  ///< mm; negative: from the voxel size
+    LevelSetChoices level_sets;
     std::string compress = "optimization";
-    std::string input_unit;  ///< of a surface file: mm, cm, m; empty: mm
-    int threads = 0;         ///< 0: as many as the process may use
+    int threads = 0;  ///< 0: as many as the process may use
 };
 
 /// What a run would make and take.

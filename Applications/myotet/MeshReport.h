@@ -12,6 +12,7 @@ namespace myotet::app {
 
 /// What the report says about one tissue.
 struct TissueReport {
+    int layer = 0;
     std::int32_t label = 0;
     std::string name;
     std::int64_t voxels = 0;

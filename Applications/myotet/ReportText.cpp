@@ -14,6 +14,7 @@ Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr
 
 Json tissue_json(const TissueReport& t) {
     return {
+        {"layer", t.layer},
         {"label", t.label},
         {"name", t.name},
         {"voxels", t.voxels > 0 ? Json(t.voxels) : Json(nullptr)},

@@ -9,9 +9,7 @@
 #include "Core/Sha256.h"
 #include "ExitCodes.h"
 #include "MeshFiles/MeshFiles.h"
-#include "MeshJob.h"
 #include "Segmentation/Census.h"
-#include "Segmentation/ReadLabels.h"
 
 namespace myotet::app {
 namespace {
@@ -88,38 +86,42 @@ int count_outward_shells(const TriMesh& surface) {
         std::ranges::count_if(volumes, [&](const auto& v) { return v.second * whole > 0; }));
 }
 
-Scan read_label_scan(const JobOptions& options) {
+Scan read_label_scan(const ScanOptions& options) {
     if (!options.input_unit.empty())
         throw UsageError("--input-unit: " + options.input.string() +
                          " is a label file, which says its unit itself; leave the option out");
-    segmentation::LabelFile file =
-        segmentation::read_labels(options.input, {.names = options.names});
-    const auto counts = segmentation::count_labels(file.layers.front());
-    const auto chosen = segmentation::choose_labels(file.layers.front(), counts, options.labels);
-    const auto areas = estimate_areas(file.layers.front());
+    segmentation::LabelFile file = segmentation::read_labels(options.input, options.reading);
+    const auto counts = segmentation::count_labels(file.layers);
+    const auto chosen = segmentation::choose_labels(file.layers, counts, options.labels);
+    const auto is_chosen = [&](const segmentation::LabelCount& c) {
+        return std::ranges::any_of(
+            chosen, [&](const auto& d) { return d.layer == c.layer && d.value == c.value; });
+    };
+    std::vector<std::map<std::int32_t, double>> areas;
+    for (const LabelVolume& volume : file.layers) areas.push_back(estimate_areas(volume));
 
     Scan scan;
     scan.spacing = file.layers.front().spacing();
     scan.names_from = file.names_from;
     scan.warnings = std::move(file.warnings);
-    for (const segmentation::LabelCount& c : counts)
-        if (std::ranges::binary_search(chosen, c.value))
-            scan.tissues.push_back(
-                {c.value, file.layers.front().name_of(c.value), c.voxels,
-                 static_cast<double>(c.voxels) * file.layers.front().voxel_volume(),
-                 areas.at(c.value)});
-    scan.volume = std::move(file.layers.front());
+    for (const segmentation::LabelCount& c : counts) {
+        const LabelVolume& volume = file.layers[c.layer];
+        scan.tissues.push_back({c.layer, c.value, volume.name_of(c.value), c.voxels,
+                                static_cast<double>(c.voxels) * volume.voxel_volume(),
+                                areas[c.layer].at(c.value), is_chosen(c)});
+    }
+    scan.layers = std::move(file.layers);
     return scan;
 }
 
-Scan read_surface_scan(const JobOptions& options) {
-    if (!options.labels.empty() || !options.names.empty())
+Scan read_surface_scan(const ScanOptions& options) {
+    if (!options.labels.empty() || !options.reading.names.empty())
         throw UsageError("--labels and --names: " + options.input.string() +
                          " is a surface, which is one tissue; leave the options out");
     Scan scan;
     scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
     scan.shells = count_outward_shells(*scan.surface);
-    scan.tissues = {{1, options.input.stem().string(), 0, std::abs(volume(*scan.surface)),
+    scan.tissues = {{0, 1, options.input.stem().string(), 0, std::abs(volume(*scan.surface)),
                      surface_area(*scan.surface)}};
     // A ball has 0.09 of this; far below a paper's thickness nothing is solid.
     constexpr double kFlat = 1e-9;
@@ -132,7 +134,13 @@ Scan read_surface_scan(const JobOptions& options) {
 
 }  // namespace
 
-Scan read_scan(const JobOptions& options) {
+std::vector<Tissue> asked_tissues(const Scan& scan) {
+    std::vector<Tissue> asked;
+    std::ranges::copy_if(scan.tissues, std::back_inserter(asked), &Tissue::asked);
+    return asked;
+}
+
+Scan read_scan(const ScanOptions& options) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(options.input, ignored))
         throw IoError(options.input.string() +
@@ -141,8 +149,9 @@ Scan read_scan(const JobOptions& options) {
     if (!labels && !meshfiles::is_surface_file(options.input))
         throw InputError(options.input.string() +
                          ": its extension is not known; labels come as .nii .nii.gz .nrrd "
-                         ".seg.nrrd .mha .mhd, closed surfaces as .obj .off .stl .ply .vtp");
+                         ".seg.nrrd .mha .mhd .dcm, closed surfaces as .obj .off .stl .ply .vtp");
     Scan scan = labels ? read_label_scan(options) : read_surface_scan(options);
+    scan.input = options.input;
     scan.sha256 = sha256_of_file(options.input);
     return scan;
 }

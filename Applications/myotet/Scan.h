@@ -8,25 +8,35 @@
 
 #include "Core/LabelVolume.h"
 #include "Core/TetMesh.h"
+#include "Segmentation/ReadLabels.h"
 
 namespace myotet::app {
 
-struct JobOptions;
+/// What to read and how.
+struct ScanOptions {
+    std::filesystem::path input;        ///< label file or surface
+    std::string labels;                 ///< values or names, by commas; empty: all but 0
+    segmentation::ReadOptions reading;  ///< of a label file
+    std::string input_unit;             ///< of a surface file: mm, cm, m; empty: mm
+};
 
 /// One tissue as the input has it.
 struct Tissue {
+    int layer = 0;
     std::int32_t label = 0;
     std::string name;
     std::int64_t voxels = 0;  ///< 0 for a surface
     double volume = 0;        ///< mm^3
     double area = 0;          ///< of its surface, mm^2; from voxel faces for labels
+    bool asked = true;        ///< for a result; others are there as neighbours
 };
 
 /// The input, read and checked: labels or a surface.
 struct Scan {
-    std::optional<LabelVolume> volume;
+    std::filesystem::path input;
+    std::vector<LabelVolume> layers;  ///< on one grid; empty for a surface
     std::optional<TriMesh> surface;
-    std::vector<Tissue> tissues;       ///< those asked for, by label value
+    std::vector<Tissue> tissues;       ///< all, by layer and label value
     Vec3 spacing = Vec3::Zero();       ///< of the voxels, mm; zero for a surface
     int shells = 0;                    ///< outward closed pieces of a surface
     std::filesystem::path names_from;  ///< where the names come from; empty: none
@@ -34,8 +44,11 @@ struct Scan {
     std::vector<std::string> warnings;
 };
 
+/// Tissues of the scan that results are asked for.
+[[nodiscard]] std::vector<Tissue> asked_tissues(const Scan& scan);
+
 /// Throws UsageError when an option does not fit the kind of input, IoError,
 /// InputError.
-[[nodiscard]] Scan read_scan(const JobOptions& options);
+[[nodiscard]] Scan read_scan(const ScanOptions& options);
 
 }  // namespace myotet::app

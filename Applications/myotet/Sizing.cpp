@@ -52,7 +52,7 @@ meshing::Options sizes_at(double edge_length, const SizeOptions& asked) {
 
 double forecast_tets(const meshing::Options& sizes, const Scan& scan) {
     double tets = 0;
-    for (const Tissue& tissue : scan.tissues)
+    for (const Tissue& tissue : asked_tissues(scan))
         tets += meshing::forecast_tets(tissue.volume, tissue.area, sizes);
     return tets;
 }
@@ -61,7 +61,7 @@ double forecast_tets(const meshing::Options& sizes, const Scan& scan) {
 /// the forecast falls with the edge length.
 double shortest_edge_for(double tets, const SizeOptions& asked, const Scan& scan) {
     double extent = 0;
-    for (const Tissue& tissue : scan.tissues) extent += std::sqrt(tissue.area);
+    for (const Tissue& tissue : asked_tissues(scan)) extent += std::sqrt(tissue.area);
     double low = 1e-6 * extent, high = 10 * extent;
     constexpr int kHalvings = 40;  // of the logarithm: far below any rounding that matters
     for (int i = 0; i < kHalvings; ++i) {
@@ -118,11 +118,12 @@ double level_set_spacing(const meshing::Options& sizes, const Scan& scan) {
 }
 
 Forecast forecast(const meshing::Options& sizes, const Scan& scan) {
-    const double voxels = scan.volume ? static_cast<double>(scan.volume->values.size()) : 0;
+    double voxels = 0;
+    for (const LabelVolume& layer : scan.layers) voxels += static_cast<double>(layer.values.size());
     const double spacing =
         scan.surface ? level_set_spacing(sizes, scan) : std::cbrt(scan.spacing.prod());
     double samples = 0;
-    for (const Tissue& tissue : scan.tissues) samples += tissue.area / (spacing * spacing);
+    for (const Tissue& tissue : asked_tissues(scan)) samples += tissue.area / (spacing * spacing);
     Forecast result;
     result.edge_length = sizes.edge_length;
     result.tets = forecast_tets(sizes, scan);

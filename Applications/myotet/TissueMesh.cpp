@@ -81,6 +81,12 @@ RegionMesh mesh_region(const Region& region, const Frame& frame, const meshing::
     return result;
 }
 
+std::string name_of(const Region& region, const std::vector<Tissue>& tissues) {
+    const auto it =
+        std::ranges::find_if(tissues, [&](const Tissue& t) { return belongs(region, t); });
+    return it->name;
+}
+
 /// Largest regions first, each taken by whoever is free; results by region.
 std::vector<RegionMesh> mesh_regions(LabelLevelSets& sets, const std::vector<Tissue>& tissues,
                                      const meshing::Options& sizes, LevelSets after,
@@ -101,8 +107,7 @@ std::vector<RegionMesh> mesh_regions(LabelLevelSets& sets, const std::vector<Tis
         for (std::size_t i = first; i < last; ++i) {
             progress.check();
             const std::size_t r = order[next++];
-            RegionProgress part(progress, done, weights[r] / all,
-                                std::ranges::find(tissues, regions[r].label, &Tissue::label)->name);
+            RegionProgress part(progress, done, weights[r] / all, name_of(regions[r], tissues));
             meshes[r] = mesh_region(regions[r], sets.frame, sizes, part);
             if (after == LevelSets::released) regions[r].phi = {};
         }
@@ -158,6 +163,7 @@ TissueMesh join_regions(const Tissue& tissue, const std::vector<Region>& regions
                         std::vector<RegionMesh>& made, double edge_length) {
     TissueMesh whole;
     TissueReport& report = whole.report;
+    report.layer = tissue.layer;
     report.label = tissue.label;
     report.name = tissue.name;
     report.voxels = tissue.voxels;
@@ -165,7 +171,7 @@ TissueMesh join_regions(const Tissue& tissue, const std::vector<Region>& regions
     report.edge_length_asked = edge_length;
     std::size_t faces = 0;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (regions[r].label != tissue.label) continue;
+        if (!belongs(regions[r], tissue)) continue;
         ++report.components_in;
         record_region(regions[r], made[r], edge_length, report);
         append(whole.mesh, made[r].mesh);

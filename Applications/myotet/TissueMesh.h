@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "Core/Progress.h"
-#include "LevelSet/FromLabels.h"
+#include "LevelSetStage.h"
 #include "MeshReport.h"
 #include "Meshing/MeshLevelSet.h"
 #include "Scan.h"

@@ -18,23 +18,10 @@ struct Arguments {
 };
 
 void add_options(CLI::App& command, Arguments& a) {
-    command
-        .add_option("INPUT", a.job.input,
-                    "labels (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd) or a closed surface "
-                    "(.obj .off .stl .ply .vtp)")
-        ->required()
-        ->type_name("FILE");
+    add_scan_options(command, a.job.scan);
     command.add_option("-o,--output", a.job.output, "folder for the results")
         ->required()
         ->type_name("FOLDER");
-    command
-        .add_option("--labels", a.job.labels,
-                    "only these, by value or name: 3,7,biceps (default: all but 0)")
-        ->type_name("LIST");
-    command
-        .add_option("--names", a.job.names,
-                    "table of label names (default: looked for beside the input)")
-        ->type_name("TABLE");
     auto* edge = command.add_option("--edge-length", a.job.sizes.edge_length,
                                     "target edge length on the surface, mm (default: from the "
                                     "voxels, under a million tetrahedra)");
@@ -52,19 +39,10 @@ void add_options(CLI::App& command, Arguments& a) {
                     "refine where the longest edge > FACTOR / (|k1| + |k2|) (default: off)")
         ->check(kPositive)
         ->type_name("FACTOR");
-    command
-        .add_option("--smooth", a.job.smooth,
-                    "how far smoothing may move a sharp voxel corner, mm (default: from the "
-                    "voxels; 0: none)")
-        ->check(kNotNegative)
-        ->type_name("MM");
+    add_level_set_options(command, a.job.level_sets);
     command.add_option("--compress", a.job.compress, "how the mesh is fitted to the surface")
         ->check(CLI::IsMember({"optimization"}))
         ->capture_default_str();
-    command
-        .add_option("--input-unit", a.job.input_unit,
-                    "what a surface file's numbers mean: mm, cm or m (default: mm)")
-        ->check(CLI::IsMember({"mm", "cm", "m"}));
     command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 #include "Core/Errors.h"
@@ -49,14 +50,14 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 /// The labels nearest to a name, those that contain it first.
-std::string nearest_names(const LabelVolume& volume, std::span<const LabelCount> counts,
+std::string nearest_names(std::span<const LabelVolume> layers, std::span<const LabelCount> counts,
                           const std::string& asked) {
     std::vector<std::pair<std::size_t, std::string>> ranked;
     for (const LabelCount& c : counts) {
-        const std::string name = lower_case(volume.name_of(c.value));
-        const bool contains = name.find(asked) != std::string::npos;
-        ranked.emplace_back(contains ? 0 : 1 + edit_distance(name, asked),
-                            std::to_string(c.value) + " " + volume.name_of(c.value));
+        const std::string name = layers[c.layer].name_of(c.value), lower = lower_case(name);
+        const bool contains = lower.find(asked) != std::string::npos;
+        ranked.emplace_back(contains ? 0 : 1 + edit_distance(lower, asked),
+                            std::to_string(c.value) + " " + name);
     }
     std::stable_sort(ranked.begin(), ranked.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -66,31 +67,62 @@ std::string nearest_names(const LabelVolume& volume, std::span<const LabelCount>
     return text;
 }
 
-/// Values with which one word of the user may agree: a number, else a name.
-std::vector<std::int32_t> match(const LabelVolume& volume, std::span<const LabelCount> counts,
-                                const std::string& word) {
+/// What a word of the user says when it is no name.
+struct Number {
+    std::optional<int> layer;
     std::int32_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool is_number = error == std::errc() && end == word.data() + word.size();
+};
+
+/// "4" or "1:4".
+std::optional<Number> parse_number(const std::string& word) {
+    Number number;
+    const char *at = word.data(), *end = at + word.size();
+    if (const std::size_t colon = word.find(':'); colon != std::string::npos) {
+        int layer = 0;
+        const auto [stop, error] = std::from_chars(at, at + colon, layer);
+        if (error != std::errc() || stop != at + colon) return std::nullopt;
+        number.layer = layer;
+        at += colon + 1;
+    }
+    const auto [stop, error] = std::from_chars(at, end, number.value);
+    if (error != std::errc() || stop != end) return std::nullopt;
+    return number;
+}
+
+std::string value_range(std::span<const LabelCount> counts) {
+    if (counts.empty()) return "none";
+    const auto [low, high] = std::ranges::minmax(counts, {}, &LabelCount::value);
+    return std::to_string(low.value) + " to " + std::to_string(high.value);
+}
+
+/// Marks the labels with which one word of the user agrees.
+void match(std::span<const LabelVolume> layers, std::span<const LabelCount> counts,
+           const std::string& word, std::vector<char>& chosen) {
+    const std::optional<Number> number = parse_number(word);
     const std::string lower = lower_case(word);
-    std::vector<std::int32_t> found;
-    for (const LabelCount& c : counts)
-        if (is_number ? c.value == value : lower_case(volume.name_of(c.value)) == lower)
-            found.push_back(c.value);
-    if (!found.empty()) return found;
-    if (is_number)
+    bool found = false;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const LabelCount& c = counts[i];
+        const bool agrees =
+            number ? c.value == number->value && (!number->layer || c.layer == *number->layer)
+                   : lower_case(layers[c.layer].name_of(c.value)) == lower;
+        if (agrees) {
+            found = true;
+            chosen[i] = 1;
+        }
+    }
+    if (found) return;
+    if (number)
         throw InputError("the label " + word + " has no voxels in the volume, whose labels are " +
-                         (counts.empty() ? std::string("none")
-                                         : std::to_string(counts.front().value) + " to " +
-                                               std::to_string(counts.back().value)) +
-                         "; ask for one that it holds");
-    for (const auto& [named, label] : volume.names)
-        if (lower_case(label.name) == lower)
-            throw InputError(
-                "the label '" + word + "' (" + std::to_string(named) +
-                ") is in the name table but has no voxels in the volume; leave it out");
+                         value_range(counts) + "; ask for one that it holds");
+    for (const LabelVolume& volume : layers)
+        for (const auto& [named, label] : volume.names)
+            if (lower_case(label.name) == lower)
+                throw InputError(
+                    "the label '" + word + "' (" + std::to_string(named) +
+                    ") is in the name table but has no voxels in the volume; leave it out");
     throw InputError("no label is called '" + word + "'; the nearest are " +
-                     nearest_names(volume, counts, lower));
+                     nearest_names(layers, counts, lower));
 }
 
 }  // namespace
@@ -124,28 +156,33 @@ std::vector<LabelCount> count_labels(const LabelVolume& volume) {
     return counts;
 }
 
-std::vector<std::int32_t> choose_labels(const LabelVolume& volume,
-                                        std::span<const LabelCount> counts,
-                                        const std::string& asked) {
-    std::vector<std::int32_t> chosen;
-    if (trimmed(asked).empty()) {
-        for (const LabelCount& c : counts) chosen.push_back(c.value);
-        return chosen;
-    }
+std::vector<LabelCount> count_labels(std::span<const LabelVolume> layers) {
+    std::vector<LabelCount> all;
+    for (std::size_t layer = 0; layer < layers.size(); ++layer)
+        for (LabelCount& count : count_labels(layers[layer])) {
+            count.layer = static_cast<int>(layer);
+            all.push_back(count);
+        }
+    return all;
+}
+
+std::vector<LabelCount> choose_labels(std::span<const LabelVolume> layers,
+                                      std::span<const LabelCount> counts,
+                                      const std::string& asked) {
+    if (trimmed(asked).empty()) return {counts.begin(), counts.end()};
+    std::vector<char> chosen(counts.size(), 0);
     for (std::size_t at = 0; at <= asked.size();) {
         const std::size_t comma = std::min(asked.find(',', at), asked.size());
         const std::string word(trimmed(std::string_view(asked).substr(at, comma - at)));
-        if (!word.empty()) {
-            const std::vector<std::int32_t> found = match(volume, counts, word);
-            chosen.insert(chosen.end(), found.begin(), found.end());
-        }
+        if (!word.empty()) match(layers, counts, word, chosen);
         at = comma + 1;
     }
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    if (chosen.empty())
+    std::vector<LabelCount> found;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (chosen[i]) found.push_back(counts[i]);
+    if (found.empty())
         throw InputError("'" + asked + "' names no label; give values or names apart by commas");
-    return chosen;
+    return found;
 }
 
 }  // namespace myotet::segmentation

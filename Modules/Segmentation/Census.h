@@ -11,6 +11,7 @@ namespace myotet::segmentation {
 
 /// What a label volume holds of one label.
 struct LabelCount {
+    int layer = 0;
     std::int32_t value = 0;
     std::int64_t voxels = 0;
     Index3 min{0, 0, 0}, max{0, 0, 0};  ///< index box, both ends inclusive
@@ -20,12 +21,16 @@ struct LabelCount {
 /// Every label but 0, by value. Cost: one pass.
 [[nodiscard]] std::vector<LabelCount> count_labels(const LabelVolume& volume);
 
-/// Turns what a user asks for ("3,7,biceps") into label values, sorted. A name
-/// matches without regard to case. Empty text: every label of the volume.
+/// The same for every layer of a file, by layer, then by value.
+[[nodiscard]] std::vector<LabelCount> count_labels(std::span<const LabelVolume> layers);
+
+/// Those of `counts` that a user asks for ("3,7,biceps,1:4"), in their order. A
+/// value stands for that label in every layer that has it, layer:value for one
+/// of them; a name matches without regard to case. Empty text: all.
 /// Throws InputError for a value or name that is not in the volume, with the
 /// nearest names.
-[[nodiscard]] std::vector<std::int32_t> choose_labels(const LabelVolume& volume,
-                                                      std::span<const LabelCount> counts,
-                                                      const std::string& asked);
+[[nodiscard]] std::vector<LabelCount> choose_labels(std::span<const LabelVolume> layers,
+                                                    std::span<const LabelCount> counts,
+                                                    const std::string& asked);
 
 }  // namespace myotet::segmentation

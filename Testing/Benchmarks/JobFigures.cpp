@@ -54,7 +54,7 @@ void expect_classic(const char* file, double processor_seconds) {
     if (!fs::exists(input)) GTEST_SKIP() << input << " is not here";
     const myotet::testing::TemporaryFolder out;
     const app::RunReport r =
-        run({.input = input, .output = out.path() / "mesh", .sizes = {.tets = 100000}});
+        run({.scan = {.input = input}, .output = out.path() / "mesh", .sizes = {.tets = 100000}});
     ASSERT_EQ(r.tissues.size(), 1u);
     const app::TissueReport& t = r.tissues[0];
     expect_promises(t);
@@ -93,7 +93,7 @@ void expect_scan(const char* file, std::size_t tissues, const app::SizeOptions& 
     if (!fs::exists(input)) GTEST_SKIP() << input << " is not here";
     const myotet::testing::TemporaryFolder out;
     const fs::path folder = out.path() / "mesh";
-    const app::RunReport r = run({.input = input, .output = folder, .sizes = sizes});
+    const app::RunReport r = run({.scan = {.input = input}, .output = folder, .sizes = sizes});
     EXPECT_EQ(r.tissues.size(), tissues);
     double worst = 0, worst_small = 0;
     for (const app::TissueReport& t : r.tissues) {

@@ -40,9 +40,10 @@ Made make(std::string_view name, const phantoms::PhantomOptions& options, double
     const auto file = folder.path() / "scan.nii.gz";
     segmentation::write_labels(made.phantom.volume, file);
     SilentProgress quiet;
-    made.report = app::run_job(
-        {.input = file, .output = folder.path() / "out", .sizes = {.edge_length = edge_length}},
-        quiet);
+    made.report = app::run_job({.scan = {.input = file},
+                                .output = folder.path() / "out",
+                                .sizes = {.edge_length = edge_length}},
+                               quiet);
     for (const app::TissueReport& t : made.report.tissues) {
         EXPECT_TRUE(t.broken_promises.empty()) << name << " " << t.label;
         EXPECT_EQ(t.components_in, t.components_out) << name << " " << t.label;

@@ -13,7 +13,7 @@ namespace {
 /// A ball of the given radius in voxels of the given size.
 Scan ball_scan(double radius, const Vec3& spacing) {
     Scan scan;
-    scan.volume.emplace();
+    scan.layers.emplace_back();
     scan.spacing = spacing;
     const double volume = 4.0 / 3 * M_PI * std::pow(radius, 3);
     scan.tissues = {{.label = 1,

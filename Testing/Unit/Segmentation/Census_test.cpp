@@ -29,7 +29,7 @@ TEST(Census, AgreesWithACountVoxelByVoxel) {
     ASSERT_EQ(counts.size(), 4u);
     std::int64_t total = std::count(volume.values.begin(), volume.values.end(), 0);
     for (const LabelCount& c : counts) {
-        LabelCount expected{c.value, 0, volume.size, {-1, -1, -1}, Vec3::Zero()};
+        LabelCount expected{0, c.value, 0, volume.size, {-1, -1, -1}, Vec3::Zero()};
         for (int k = 0; k < 7; ++k)
             for (int j = 0; j < 9; ++j)
                 for (int i = 0; i < 13; ++i)
@@ -62,7 +62,10 @@ TEST(Census, OfAnEmptyVolumeIsEmpty) {
 class Choice : public ::testing::Test {
 protected:
     std::vector<std::int32_t> choose(const std::string& asked) {
-        return choose_labels(volume, counts, asked);
+        std::vector<std::int32_t> values;
+        for (const LabelCount& c : choose_labels({&volume, 1}, counts, asked))
+            values.push_back(c.value);
+        return values;
     }
     void expect_refused(const std::string& asked, const char* reason) {
         try {
@@ -100,6 +103,24 @@ TEST_F(Choice, RefusesWhatIsNotThere) {
     expect_refused("soleus", "the nearest are 4 m. soleus");
     expect_refused("tibia", "'tibia' (9) is in the name table but has no voxels");
     expect_refused(" , ", "names no label");
+}
+
+TEST(ChoiceAmongLayers, TakesAValueFromEveryLayerOrFromOne) {
+    std::vector<LabelVolume> layers(2, samples::make_volume());  // labels 1 to 4 twice
+    layers[1].names[1].name = "brachialis";
+    const auto counts = count_labels(layers);
+    ASSERT_EQ(counts.size(), 8u);
+    const auto choose = [&](const std::string& asked) {
+        std::vector<std::pair<int, std::int32_t>> keys;
+        for (const LabelCount& c : choose_labels(layers, counts, asked))
+            keys.emplace_back(c.layer, c.value);
+        return keys;
+    };
+    using Keys = std::vector<std::pair<int, std::int32_t>>;
+    EXPECT_EQ(choose("4"), (Keys{{0, 4}, {1, 4}}));
+    EXPECT_EQ(choose("1:4"), (Keys{{1, 4}}));
+    EXPECT_EQ(choose("brachialis,0:2"), (Keys{{0, 2}, {1, 1}}));
+    EXPECT_THROW((void)choose("2:4"), InputError);
 }
 
 }  // namespace

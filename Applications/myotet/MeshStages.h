@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "LevelSet/FromLabels.h"
+#include "LevelSetStage.h"
 #include "MeshJob.h"
 #include "Outputs.h"
 #include "Scan.h"
@@ -11,16 +11,9 @@
 
 namespace myotet::app {
 
-/// One level set a component of each tissue; a surface is one region in its
-/// own coordinates, which are the patient's.
-[[nodiscard]] levelset::LabelLevelSets make_level_sets(const Scan& scan,
-                                                       const meshing::Options& sizes,
-                                                       const JobOptions& options,
-                                                       ProgressSink& progress);
-
 /// Meshes all tissues. When a number of tetrahedra is wished for, finds the
 /// edge length for it first, and leaves it in `sizes`.
-[[nodiscard]] std::vector<TissueMesh> mesh_to_size(levelset::LabelLevelSets& sets, const Scan& scan,
+[[nodiscard]] std::vector<TissueMesh> mesh_to_size(TissueSets& sets, const Scan& scan,
                                                    meshing::Options& sizes,
                                                    std::int64_t wished_tets,
                                                    ProgressSink& progress);
@@ -30,7 +23,6 @@ void write_tissue(TissueMesh& tissue, OutputFolder& out);
 
 /// The run's part of the report, but for times and tissues.
 [[nodiscard]] RunReport describe_run(const JobOptions& options, const Scan& scan,
-                                     const meshing::Options& sizes,
-                                     const levelset::LabelLevelSets& sets);
+                                     const meshing::Options& sizes, const TissueSets& sets);
 
 }  // namespace myotet::app

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "JobStages.h"
+#include "MeshStages.h"
 
 #include <cmath>
 
-#include "Core/Errors.h"
 #include "Core/Parallel.h"
-#include "LevelSet/FromSurface.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Meshing/Refine.h"
 #include "Text.h"
@@ -13,31 +11,10 @@
 namespace myotet::app {
 namespace {
 
-using levelset::LabelLevelSets;
-
 std::vector<std::int32_t> values_of(const std::vector<Tissue>& tissues) {
     std::vector<std::int32_t> values;
     for (const Tissue& tissue : tissues) values.push_back(tissue.label);
     return values;
-}
-
-/// A surface is one region in its own coordinates, which are the patient's.
-LabelLevelSets level_sets_of_surface(const Scan& scan, const meshing::Options& sizes,
-                                     const JobOptions& options, ProgressSink& progress) {
-    LabelLevelSets sets;
-    sets.spacing = level_set_spacing(sizes, scan);
-    sets.smooth = std::max(0.0, options.smooth);
-    levelset::Region region;
-    region.label = scan.tissues.front().label;
-    region.volume_labels = scan.tissues.front().volume;
-    try {
-        region.phi = levelset::from_surface(
-            *scan.surface, {.spacing = sets.spacing, .smooth = sets.smooth}, progress);
-    } catch (const InputError& error) {  // which does not know the file
-        throw InputError(options.input.string() + ": " + error.what());
-    }
-    sets.regions.push_back(std::move(region));
-    return sets;
 }
 
 double count_tets(const std::vector<TissueMesh>& tissues) {
@@ -59,18 +36,11 @@ void count_surface_pieces(const Scan& scan, std::vector<TissueMesh>& tissues) {
 
 }  // namespace
 
-LabelLevelSets make_level_sets(const Scan& scan, const meshing::Options& sizes,
-                               const JobOptions& options, ProgressSink& progress) {
-    if (scan.surface) return level_sets_of_surface(scan, sizes, options, progress);
-    return levelset::from_labels(
-        *scan.volume, values_of(scan.tissues),
-        {.spacing = level_set_spacing(sizes, scan), .smooth = options.smooth}, progress);
-}
-
-std::vector<TissueMesh> mesh_to_size(LabelLevelSets& sets, const Scan& scan,
+std::vector<TissueMesh> mesh_to_size(TissueSets& tissue_sets, const Scan& scan,
                                      meshing::Options& sizes, std::int64_t wished_tets,
                                      ProgressSink& progress) {
     constexpr int kMostTries = 3;
+    levelset::LabelLevelSets& sets = tissue_sets.sets;
     const auto wished = static_cast<double>(wished_tets);
     const auto after = wished_tets > 0 ? LevelSets::kept : LevelSets::released;
     if (wished_tets > 0) sizes = sizes_for_total(sets.regions, sizes, wished, progress);
@@ -81,8 +51,8 @@ std::vector<TissueMesh> mesh_to_size(LabelLevelSets& sets, const Scan& scan,
                       readable(plan.coarsest_edge) + " mm inside");
         // One region's number is known long before its mesh is finished.
         const bool early = wished_tets > 0 && sets.regions.size() == 1 && tries < kMostTries;
-        tissues = mesh_tissues(sets, scan.tissues, early ? bounded(sizes, wished) : sizes, after,
-                               progress);
+        tissues = mesh_tissues(sets, tissue_sets.tissues, early ? bounded(sizes, wished) : sizes,
+                               after, progress);
         // Refinement that follows compression can miss the number that the
         // candidates had: then a better edge length.
         const double excess = wished_tets > 0 ? count_tets(tissues) / wished : 1;
@@ -111,25 +81,26 @@ void write_tissue(TissueMesh& tissue, OutputFolder& out) {
 }
 
 RunReport describe_run(const JobOptions& options, const Scan& scan, const meshing::Options& sizes,
-                       const LabelLevelSets& sets) {
+                       const TissueSets& sets) {
     const meshing::LevelPlan plan = meshing::plan_levels(sizes);
     RunReport report;
-    report.input = options.input.string();
+    report.input = options.scan.input.string();
     report.input_sha256 = scan.sha256;
     report.output = options.output.string();
-    report.labels = values_of(scan.tissues);
+    report.labels = values_of(sets.tissues);
     report.options_text = {
         {"names_from", scan.names_from.string()},
         {"compress", options.compress},
-        {"input_unit", options.input_unit.empty() && scan.surface ? "mm" : options.input_unit}};
+        {"input_unit",
+         options.scan.input_unit.empty() && scan.surface ? "mm" : options.scan.input_unit}};
     report.options_number = {
         {"tets", options.sizes.tets > 0 ? static_cast<double>(options.sizes.tets) : NAN},
         {"edge_length_mm", sizes.edge_length},
         {"interior_edge_length_mm", plan.coarsest_edge},
         {"smallest_edge_length_mm", plan.smallest_edge},
         {"curvature", sizes.curvature_factor},
-        {"smooth_mm", sets.smooth},
-        {"level_set_spacing_mm", sets.spacing}};
+        {"smooth_mm", sets.sets.smooth},
+        {"level_set_spacing_mm", sets.sets.spacing}};
     report.threads = thread_count();
     report.warnings = scan.warnings;
     return report;
