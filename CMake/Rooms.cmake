@@ -2,13 +2,14 @@
 # The rooms, in the order in which data flows, and who may include whom.
 # CMake/CheckIncludes.cmake holds the sources to it.
 
-set(myotet_rooms Core Segmentation LevelSet Surface Quality Lattice Elasticity Dynamics Meshing
+set(myotet_rooms Core Segmentation LevelSet Repair Surface Quality Lattice Elasticity Dynamics Meshing
                  Cage MeshFiles Report)
 
 # <room>_may_include: rooms besides itself.
 set(Core_may_include)
 set(Segmentation_may_include Core)
 set(LevelSet_may_include Core)
+set(Repair_may_include Core LevelSet)
 set(Surface_may_include Core)
 set(Quality_may_include Core)
 set(Lattice_may_include Core)
@@ -21,7 +22,7 @@ set(Report_may_include Core Quality MeshFiles)
 
 # Third-party headers: a pattern of the header's name, then the rooms whose
 # .cpp files may include it. "Applications" is no room, but owns some.
-set(myotet_owned_headers itk nifti zlib openvdb vtk tbb CLI spdlog nlohmann)
+set(myotet_owned_headers itk nifti zlib openvdb yaml vtk tbb CLI spdlog nlohmann)
 set(itk_pattern "^itk[A-Z]")
 set(itk_owners Segmentation LevelSet)
 set(nifti_pattern "^nifti")
@@ -30,6 +31,8 @@ set(zlib_pattern "^zlib\\.h$")
 set(zlib_owners Segmentation)
 set(openvdb_pattern "^openvdb/")
 set(openvdb_owners LevelSet)
+set(yaml_pattern "^yaml-cpp/")
+set(yaml_owners Repair)
 set(vtk_pattern "^vtk[A-Z]")
 set(vtk_owners MeshFiles Report)
 set(tbb_pattern "^tbb/")

@@ -5,8 +5,9 @@
 myotet_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libtbb-dev zlib1g-dev
-  libinsighttoolkit5-dev libnifti2-dev
+  libinsighttoolkit5-dev libnifti2-dev libdcmtk-dev
   libopenvdb-dev libboost-iostreams-dev libblosc-dev
+  libyaml-cpp-dev
   libvtk9-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace myotet::repair {
+
+/// A YAML document as plain data, with the lines it came from.
+struct YamlTree {
+    enum class Kind { nothing, scalar, list, map };
+    Kind kind = Kind::nothing;
+    int line = 0;                                           ///< from 1
+    std::string text;                                       ///< of a scalar
+    std::vector<YamlTree> items;                            ///< of a list
+    std::vector<std::pair<std::string, YamlTree>> entries;  ///< of a map, in the file's order
+};
+
+/// Throws IoError when the file cannot be read, InputError with the line when
+/// it is no YAML, is nested deeper or larger than a recipe can be, or names a
+/// key twice.
+[[nodiscard]] YamlTree read_yaml(const std::filesystem::path& file);
+
+}  // namespace myotet::repair
