@@ -12,9 +12,10 @@ namespace myotet::segmentation {
 
 /// The formats, each read into a LabelFile with the names found in the file
 /// itself. Errors as read_labels; labels and tables are not looked at yet.
-[[nodiscard]] LabelFile read_nifti(const std::filesystem::path& file);
-[[nodiscard]] LabelFile read_nrrd(const std::filesystem::path& file);
+[[nodiscard]] LabelFile read_nifti(const std::filesystem::path& file, const ReadOptions& options);
+[[nodiscard]] LabelFile read_nrrd(const std::filesystem::path& file, const ReadOptions& options);
 [[nodiscard]] LabelFile read_metaimage(const std::filesystem::path& file);
+[[nodiscard]] LabelFile read_dicom_seg(const std::filesystem::path& file);
 
 /// The formats out; `file` is written in place.
 void write_nifti(const LabelVolume& volume, const std::filesystem::path& file);

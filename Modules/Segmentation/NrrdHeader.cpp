@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/NrrdHeader.h"
 
+#include <charconv>
 #include <optional>
 #include <sstream>
 
@@ -14,6 +15,8 @@ namespace fs = std::filesystem;
 
 // The format's own limit.
 constexpr std::int64_t kMostDimensions = 16;
+// More than any segmentation has; a header that tells of more lies.
+constexpr std::int64_t kMostLayers = 65535;
 
 [[noreturn]] void refuse(const fs::path& file, const char* field, const std::string& text,
                          const char* rule) {
@@ -129,19 +132,47 @@ double unit_in_mm(const TextHeader& header, const fs::path& file) {
     refuse(file, "space units", text, "mm, cm, m or um");
 }
 
-/// The three axes that span space, with all others checked to be of size 1.
-std::array<std::size_t, 3> spatial_axes(const Directions& directions,
-                                        const std::vector<std::int64_t>& sizes,
-                                        const fs::path& file) {
-    std::array<std::size_t, 3> axes{};
+/// Which axes span space, and which, if any, runs over layers.
+struct Axes {
+    std::array<std::size_t, 3> space{};
+    std::optional<std::size_t> layers;
+};
+
+[[noreturn]] void refuse_components(std::int64_t count, const std::string& kind,
+                                    const fs::path& file) {
+    throw InputError(file.string() + ": holds " + std::to_string(count) +
+                     " values a voxel of the kind '" + kind.substr(0, 40) +
+                     "', but layers of labels have the kind 'list'; export a label map, or ask "
+                     "for --one-hot when each is the mask of one label");
+}
+
+/// Whether an axis that spans no space may hold layers.
+void check_layer_axis(std::size_t axis, std::int64_t count, const TextHeader& header,
+                      std::size_t dimensions, const fs::path& file, bool one_hot) {
+    const std::vector<std::string> kinds = words_of(lower_case(header.get("kinds")));
+    const std::string kind = kinds.size() == dimensions ? kinds[axis] : "";
+    if (kind.ends_with("-color"))
+        throw InputError(file.string() + ": stores colours (kind '" + kind.substr(0, 40) +
+                         "'), but labels are numbers; export the label map, not its picture");
+    if (count < 1 || count > kMostLayers || (!one_hot && kind != "list" && kind != "vector"))
+        refuse_components(count, kind, file);
+}
+
+Axes sort_axes(const Directions& directions, const std::vector<std::int64_t>& sizes,
+               const TextHeader& header, const fs::path& file, bool one_hot) {
+    Axes axes;
     std::size_t found = 0;
     for (std::size_t n = 0; n < sizes.size(); ++n) {
-        if (directions[n] && found < 3)
-            axes[found++] = n;
-        else if (sizes[n] != 1)
-            throw InputError(file.string() + ": holds " + std::to_string(sizes[n]) +
-                             " layers, components or volumes, but one label a voxel is needed; "
-                             "overlapping layers are not supported yet: export a single label map");
+        if (directions[n] && found < 3) {
+            axes.space[found++] = n;
+        } else if (sizes[n] != 1) {
+            check_layer_axis(n, sizes[n], header, sizes.size(), file, one_hot);
+            if (axes.layers || (found != 0 && found != 3))
+                throw InputError(file.string() +
+                                 ": its axes of layers stand between those of space or are "
+                                 "several, but one is read, first or last; reorder the axes");
+            axes.layers = n;
+        }
     }
     if (found < 3)
         throw InputError(file.string() + ": holds an image of " + std::to_string(found) +
@@ -161,6 +192,21 @@ std::vector<std::int64_t> sizes_of(const TextHeader& header, const fs::path& fil
     return sizes;
 }
 
+std::optional<std::array<double, 3>> parse_colour(const std::string& text) {
+    std::istringstream in(text);
+    std::array<double, 3> colour{};
+    for (double& channel : colour)
+        if (!(in >> channel)) return {};
+    return colour;
+}
+
+std::optional<std::int32_t> number_in(const std::string& text) {
+    std::int32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc()) return {};
+    return value;
+}
+
 Vec3 origin_of(const TextHeader& header, const fs::path& file) {
     const std::string text = header.get("space origin");
     if (text.empty()) return Vec3::Zero();
@@ -171,7 +217,7 @@ Vec3 origin_of(const TextHeader& header, const fs::path& file) {
 
 }  // namespace
 
-NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file) {
+NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file, bool one_hot) {
     NrrdMeaning meaning;
     meaning.type = type_of(header, file);
     const std::vector<std::int64_t> sizes = sizes_of(header, file);
@@ -180,7 +226,11 @@ NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file) {
         text.empty() ? from_spacings(header, sizes.size(), file) : directions_of(text, file);
     if (directions.size() != sizes.size())
         refuse(file, "space directions", text, "one entry an axis");
-    const auto axes = spatial_axes(directions, sizes, file);
+    const auto [axes, layers] = sort_axes(directions, sizes, header, file, one_hot);
+    if (layers) {
+        meaning.layers = sizes[*layers];
+        meaning.interleaved = *layers < axes[0];
+    }
     meaning.size = checked_size({sizes[axes[0]], sizes[axes[1]], sizes[axes[2]]}, file);
 
     Vec3 sign(1, 1, 1);
@@ -198,6 +248,29 @@ NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file) {
     meaning.index_to_lps.affine() *= unit_in_mm(header, file);
     check_geometry(meaning.index_to_lps, file);
     return meaning;
+}
+
+std::vector<std::map<std::int32_t, LabelName>> segment_names(const TextHeader& header,
+                                                             std::int64_t layers) {
+    std::vector<std::map<std::int32_t, LabelName>> names(static_cast<std::size_t>(layers));
+    for (int number = 0;; ++number) {
+        const std::string segment = "Segment" + std::to_string(number);
+        const auto get = [&](const char* what) {
+            const auto it = header.metadata.find(segment + what);
+            return it == header.metadata.end() ? std::string() : it->second;
+        };
+        const std::string id = get("_ID"), value = get("_LabelValue");
+        if (id.empty() && value.empty() && get("_Name").empty()) break;
+        // Slicer's first version wrote neither: segment n was layer n, of ones.
+        const auto label = value.empty() ? 1 : number_in(value);
+        const auto layer = !get("_Layer").empty()        ? number_in(get("_Layer"))
+                           : value.empty() && layers > 1 ? std::optional(number)
+                                                         : std::optional(0);
+        LabelName name{get("_Name").empty() ? id : get("_Name"), parse_colour(get("_Color"))};
+        if (label && layer && *layer >= 0 && *layer < layers && !name.name.empty())
+            names[static_cast<std::size_t>(*layer)].emplace(*label, std::move(name));
+    }
+    return names;
 }
 
 }  // namespace myotet::segmentation

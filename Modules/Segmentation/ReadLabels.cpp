@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "Core/AtomicFile.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 // A unit cell this much flatter than a box has lost a dimension to rounding.
 constexpr double kSingular = 1e-6;
 
-enum class Format { none, nifti, nrrd, metaimage };
+enum class Format { none, nifti, nrrd, metaimage, dicom };
 
 Format format_of(const fs::path& file) {
     const std::string name = lower_case(file.filename().string());
@@ -30,6 +31,7 @@ Format format_of(const fs::path& file) {
     if (ends(".nii") || ends(".nii.gz")) return Format::nifti;
     if (ends(".nrrd") || ends(".nhdr")) return Format::nrrd;
     if (ends(".mha") || ends(".mhd")) return Format::metaimage;
+    if (ends(".dcm")) return Format::dicom;
     return Format::none;
 }
 
@@ -38,18 +40,29 @@ Format format_of(const fs::path& file) {
                      "' names no label format that is known here; use " + formats);
 }
 
-LabelFile read_format(const fs::path& file) {
-    switch (format_of(file)) {
+LabelFile read_format(const fs::path& file, const ReadOptions& options) {
+    const Format format = format_of(file);
+    if (options.orientation != Orientation::agreed && format != Format::nifti)
+        throw InputError(file.string() +
+                         ": has no sform and qform, which NIfTI files alone have; leave "
+                         "--orientation out");
+    if (options.one_hot && format != Format::nifti && format != Format::nrrd)
+        throw InputError(file.string() +
+                         ": --one-hot reads NIfTI and NRRD files with a volume for each label, "
+                         "which this is not; leave it out");
+    switch (format) {
         case Format::nifti:
-            return read_nifti(file);
+            return read_nifti(file, options);
         case Format::nrrd:
-            return read_nrrd(file);
+            return read_nrrd(file, options);
         case Format::metaimage:
             return read_metaimage(file);
+        case Format::dicom:
+            return read_dicom_seg(file);
         case Format::none:
             break;
     }
-    refuse_format(file, ".nii, .nii.gz, .nrrd, .seg.nrrd, .mha or .mhd");
+    refuse_format(file, ".nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mhd or .dcm");
 }
 
 void check_file(const fs::path& file) {
@@ -63,24 +76,61 @@ void check_file(const fs::path& file) {
         throw IoError(file.string() + ": the file is empty; copy or export it again");
 }
 
-/// The names in the file win over a table beside it, an explicit table over both.
-void add_names(LabelFile& result, const fs::path& file, const fs::path& explicit_table) {
-    if (!result.layers.front().names.empty()) result.names_from = file;
-    if (!explicit_table.empty()) {
-        auto names = read_name_table(explicit_table);
-        names.merge(result.layers.front().names);  // for values that the table leaves out
-        result.layers.front().names = std::move(names);
-        result.names_from = explicit_table;
-    } else if (result.layers.front().names.empty()) {
-        const std::optional<fs::path> beside = find_name_table(file);
-        if (!beside) return;
-        try {
-            result.layers.front().names = read_name_table(*beside);
-            result.names_from = *beside;
-        } catch (const Error& error) {
-            result.warnings.push_back(
-                "The table beside the labels was passed over: " + std::string(error.what()) + ".");
+bool is_empty(const LabelVolume& layer) {
+    return std::all_of(layer.values.begin(), layer.values.end(),
+                       [](std::int32_t value) { return value == 0; });
+}
+
+using Names = std::map<std::int32_t, LabelName>;
+
+bool is_named(const LabelFile& labels) {
+    return std::any_of(labels.layers.begin(), labels.layers.end(),
+                       [](const LabelVolume& layer) { return !layer.names.empty(); });
+}
+
+/// The values of a layer.
+std::set<std::int32_t> values_in(const LabelVolume& layer) {
+    std::set<std::int32_t> found;
+    std::int32_t last = 0;  // most voxels have their neighbour's value
+    for (const std::int32_t value : layer.values)
+        if (value != last) found.insert(last = value);
+    return found;
+}
+
+/// Gives the table's names to their values; values that it leaves out keep theirs.
+/// A table knows no layers, so it names a value in each layer that holds it.
+void apply_table(LabelFile& labels, const fs::path& table) {
+    const Names names = read_name_table(table);
+    labels.names_from = table;
+    if (labels.layers.size() == 1) {
+        for (const auto& [value, name] : names) labels.layers.front().names[value] = name;
+        return;
+    }
+    std::set<std::int32_t> seen;
+    for (LabelVolume& layer : labels.layers)
+        for (const std::int32_t value : values_in(layer)) {
+            const auto name = names.find(value);
+            if (name == names.end()) continue;
+            layer.names[value] = name->second;
+            if (!seen.insert(value).second)
+                labels.warnings.push_back(table.string() + ": value " + std::to_string(value) +
+                                          " is in several layers, and all of them now carry its "
+                                          "name.");
         }
+}
+
+/// The names in the file win over a table beside it, an explicit table over both.
+void add_names(LabelFile& labels, const fs::path& file, const fs::path& explicit_table) {
+    if (is_named(labels)) labels.names_from = file;
+    if (!explicit_table.empty()) return apply_table(labels, explicit_table);
+    if (is_named(labels)) return;
+    const std::optional<fs::path> beside = find_name_table(file);
+    if (!beside) return;
+    try {
+        apply_table(labels, *beside);
+    } catch (const Error& error) {
+        labels.warnings.push_back(
+            "The table beside the labels was passed over: " + std::string(error.what()) + ".");
     }
 }
 
@@ -119,9 +169,8 @@ bool is_label_file(const fs::path& file) { return format_of(file) != Format::non
 
 LabelFile read_labels(const fs::path& file, const ReadOptions& options) {
     check_file(file);
-    LabelFile result = read_format(file);
-    if (std::all_of(result.layers.front().values.begin(), result.layers.front().values.end(),
-                    [](std::int32_t v) { return v == 0; }))
+    LabelFile result = read_format(file, options);
+    if (std::all_of(result.layers.begin(), result.layers.end(), is_empty))
         throw InputError(file.string() +
                          ": holds no labels (every voxel is 0), but at least one is needed; check "
                          "that the segmentation was exported and not an empty layer");
@@ -136,7 +185,8 @@ void write_labels(const LabelVolume& volume, const fs::path& file) {
     check_geometry(volume.index_to_lps, file);
     const Format format = format_of(file);
     const std::string extension = lower_case(file.extension().string());
-    if (format == Format::none || extension == ".mhd" || extension == ".nhdr")
+    if (format == Format::none || format == Format::dicom || extension == ".mhd" ||
+        extension == ".nhdr")
         refuse_format(file, ".nii, .nii.gz, .nrrd or .mha");
     write_atomically(file, [&](const fs::path& temporary) {
         // Tried first, for a message with the final name; ITK leaks when it cannot open a file.

@@ -28,17 +28,20 @@ enum class Orientation {
 /// How a label file is read.
 struct ReadOptions {
     std::filesystem::path names;  ///< table of names; empty: the file's own, else one beside it
-    Orientation orientation = Orientation::agreed;
-    bool one_hot = false;  ///< 4D with a volume of 0 and 1 for each label, which may overlap
+    Orientation orientation = Orientation::agreed;  ///< refused for what is no NIfTI file
+    /// NIfTI or NRRD with a volume for each label, of 0 and one other value, which
+    /// may overlap: volume n, counted from 0, is label n + 1.
+    bool one_hot = false;
 };
 
-/// Reads .nii .nii.gz .nrrd .seg.nrrd .nhdr .mha .mhd. Names come from the table
-/// options.names, else from the file itself, else from a table beside it; a table
-/// beside it that makes no sense is a warning.
+/// Reads .nii .nii.gz .nrrd .seg.nrrd .nhdr .mha .mhd and DICOM segmentations
+/// (.dcm). Names come from the table options.names, else from the file itself,
+/// else from a table beside it; a table beside it that makes no sense is a
+/// warning. Nothing else of a header's text is kept: no patient, date or comment.
 /// Throws IoError when the file cannot be read or is cut short, InputError when
 /// its content breaks a rule (NaN spacing, no labels, not whole numbers ...),
 /// ResourceError when it does not fit in memory.
-/// Memory: 4 bytes a voxel and a little; cost: one pass over the file.
+/// Memory: 4 bytes a voxel and layer and a little; cost: one pass over the file.
 [[nodiscard]] LabelFile read_labels(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
 

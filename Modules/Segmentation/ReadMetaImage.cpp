@@ -71,8 +71,8 @@ Index3 size_of(const TextHeader& header, std::int64_t dimensions, const fs::path
     const std::string channels = header.get("elementnumberofchannels");
     if (!channels.empty() && whole_number(channels, "ElementNumberOfChannels", file) != 1)
         throw InputError(file.string() + ": holds " + channels +
-                         " components a voxel, but one label a voxel is needed; overlapping "
-                         "layers are not supported yet: export a single label map");
+                         " values a voxel, but one label a voxel is needed; save overlapping "
+                         "layers as .seg.nrrd, or export a single label map");
     return checked_size(whole, file);
 }
 
@@ -150,9 +150,10 @@ LabelFile read_metaimage(const fs::path& file) {
     const bool stored_big =
         is_true(first_of(header, {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
     const std::string binary = header.get("binarydata");
-    const ScalarLayout layout{type_of(header, file),
-                              stored_big != (std::endian::native == std::endian::big),
-                              !binary.empty() && !is_true(binary), result.layers.front().size};
+    const ScalarLayout layout{.type = type_of(header, file),
+                              .swap_bytes = stored_big != (std::endian::native == std::endian::big),
+                              .ascii = !binary.empty() && !is_true(binary),
+                              .size = result.layers.front().size};
     ByteStream stream = open_data(header, file);
     result.layers.front().values = read_scalars(stream, layout, result.warnings);
     return result;

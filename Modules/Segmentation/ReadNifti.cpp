@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
+#include "Segmentation/OneHot.h"
 #include "Segmentation/Scalars.h"
 
 namespace myotet::segmentation {
@@ -22,6 +24,8 @@ constexpr std::uint64_t kMostExtensionBytes = std::uint64_t{1} << 24;
 constexpr double kSlopeTolerance = 1e-6;
 // Two transforms that differ by less place every voxel in the same voxel.
 constexpr double kSameWithinVoxels = 0.5;
+// More labels than any atlas has; a header that tells of more lies.
+constexpr std::int64_t kMostLabels = 65535;
 
 /// What both versions of the header say, in one form.
 struct NiftiHeader {
@@ -100,6 +104,23 @@ NiftiHeader read_header(ByteStream& stream) {
                " where NIfTI has 348 or 540; this is not a NIfTI file: convert it to .nii.gz");
 }
 
+/// Volumes in the file: one, or with `one_hot` one for each label.
+std::int64_t volume_count(const NiftiHeader& h, bool one_hot, const fs::path& file) {
+    for (int n = one_hot ? 5 : 4; n <= h.dim[0]; ++n)
+        if (h.dim[n] > 1)
+            refuse(file, "holds " + std::to_string(h.dim[n]) + " volumes along dimension " +
+                             std::to_string(n) +
+                             ", but one label volume is needed; extract one of them, or ask for "
+                             "--one-hot when each of four dimensions' volumes is the mask of one "
+                             "label");
+    if (!one_hot || h.dim[0] < 4) return 1;
+    if (!(h.dim[4] >= 1 && h.dim[4] <= kMostLabels))
+        refuse(file, "the header tells of " + std::to_string(h.dim[4]) +
+                         " volumes, but there must be 1 to " + std::to_string(kMostLabels) +
+                         "; export the file again");
+    return h.dim[4];
+}
+
 Index3 volume_size(const NiftiHeader& h, const fs::path& file) {
     if (!(h.dim[0] >= 1 && h.dim[0] <= 7))
         refuse(file, "the header tells of " + std::to_string(h.dim[0]) +
@@ -107,12 +128,6 @@ Index3 volume_size(const NiftiHeader& h, const fs::path& file) {
     if (h.dim[0] < 3)
         refuse(file, "holds an image of " + std::to_string(h.dim[0]) +
                          " dimensions, but tetrahedra need three; export the whole stack");
-    for (int n = 4; n <= h.dim[0]; ++n)
-        if (h.dim[n] > 1)
-            refuse(file, "holds " + std::to_string(h.dim[n]) + " volumes along dimension " +
-                             std::to_string(n) +
-                             ", but one label volume is needed; extract one of them (overlapping "
-                             "layers are not supported yet)");
     return checked_size({h.dim[1], h.dim[2], h.dim[3]}, file);
 }
 
@@ -159,16 +174,17 @@ void check_scaling(const NiftiHeader& h, const fs::path& file) {
                          "intercept 0");
 }
 
-Eigen::Affine3d from_matrix(const Eigen::Matrix<double, 3, 4>& m) {
-    Eigen::Affine3d a;
-    a.affine() = m;
-    return a;
-}
-
 bool spans_space(const Eigen::Affine3d& a) {
     if (!a.matrix().allFinite()) return false;
     const Vec3 lengths = a.linear().colwise().norm();
     return lengths.minCoeff() > 0 && std::abs(a.linear().determinant()) > 1e-6 * lengths.prod();
+}
+
+std::optional<Eigen::Affine3d> sform(const NiftiHeader& h) {
+    if (h.sform_code <= 0) return {};
+    Eigen::Affine3d a = Eigen::Affine3d::Identity();
+    a.affine() = h.srow;
+    return a;
 }
 
 std::optional<Eigen::Affine3d> qform(const NiftiHeader& h) {
@@ -200,36 +216,58 @@ Eigen::Affine3d pixdim_only(const NiftiHeader& h, const fs::path& file,
     return a;
 }
 
-void compare_forms(const Eigen::Affine3d& used, const Eigen::Affine3d& other, const Index3& size,
-                   const fs::path& file, std::vector<std::string>& warnings) {
+std::string place_text(const Vec3& ras) {
+    std::ostringstream text;
+    text << "(" << ras[0] << ", " << ras[1] << ", " << ras[2] << ")";
+    return text.str();
+}
+
+/// Refuses a header whose transforms place some voxel more than half a voxel
+/// apart: nothing in the file tells which is right.
+void compare_forms(const Eigen::Affine3d& s, const Eigen::Affine3d& q, const Index3& size,
+                   const fs::path& file) {
     double apart = 0;
-    for (int corner = 0; corner < 8; ++corner) {
+    Vec3 worst = Vec3::Zero();
+    for (int corner = 0; corner < 8; ++corner) {  // an affine difference is largest at one
         const Vec3 index((corner & 1) * (size[0] - 1), (corner >> 1 & 1) * (size[1] - 1),
                          (corner >> 2) * (size[2] - 1));
-        apart = std::max(apart, (used * index - other * index).norm());
+        const double distance = (s * index - q * index).norm();
+        if (distance > apart) worst = index;
+        apart = std::max(apart, distance);
     }
-    if (apart > kSameWithinVoxels * used.linear().colwise().norm().minCoeff())
-        warnings.push_back(file.string() +
-                           ": the two transforms in the header, sform and qform, "
-                           "place voxels up to " +
-                           std::to_string(apart) + " mm apart; the sform was used.");
+    if (apart > kSameWithinVoxels * s.linear().colwise().norm().minCoeff())
+        refuse(file, "the header's two transforms disagree: voxel " + place_text(worst) +
+                         " lies at " + place_text(s * worst) + " RAS by the sform and at " +
+                         place_text(q * worst) +
+                         " by the qform, but they may differ by half a voxel at most; say which "
+                         "is right with --orientation sform or --orientation qform");
+}
+
+/// The transform that a user asked for by name.
+Eigen::Affine3d chosen(const std::optional<Eigen::Affine3d>& form, const char* name,
+                       const fs::path& file) {
+    if (!form || !spans_space(*form))
+        refuse(file, std::string("the ") + name + " is asked for, but the header has " +
+                         (form ? "one that is singular or not finite" : "none") +
+                         "; leave --orientation out");
+    return *form;
 }
 
 /// Index to RAS: sform first, then qform, then the spacing alone.
-Eigen::Affine3d index_to_ras(const NiftiHeader& h, const Index3& size, const fs::path& file,
-                             std::vector<std::string>& warnings) {
-    const std::optional<Eigen::Affine3d> q = qform(h);
-    if (h.sform_code > 0) {
-        const Eigen::Affine3d s = from_matrix(h.srow);
-        if (spans_space(s)) {
-            if (q && spans_space(*q)) compare_forms(s, *q, size, file, warnings);
-            return s;
-        }
-        if (!q || !spans_space(*q)) return s;  // refused by check_geometry, with its reason
-        warnings.push_back(file.string() +
-                           ": the sform in the header is singular; the qform was used.");
+Eigen::Affine3d index_to_ras(const NiftiHeader& h, const Index3& size, Orientation orientation,
+                             const fs::path& file, std::vector<std::string>& warnings) {
+    const std::optional<Eigen::Affine3d> s = sform(h), q = qform(h);
+    if (orientation == Orientation::sform) return chosen(s, "sform", file);
+    if (orientation == Orientation::qform) return chosen(q, "qform", file);
+    if (!s) return q ? *q : pixdim_only(h, file, warnings);
+    if (!q || !spans_space(*q)) return *s;  // check_geometry refuses what spans no space
+    if (spans_space(*s)) {
+        compare_forms(*s, *q, size, file);
+        return *s;
     }
-    return q ? *q : pixdim_only(h, file, warnings);
+    warnings.push_back(file.string() +
+                       ": the sform in the header is singular or not finite; the qform was used.");
+    return *q;
 }
 
 /// Millimetres per unit of length that the header uses.
@@ -286,22 +324,31 @@ std::map<std::int32_t, LabelName> read_extensions(ByteStream& stream, const Nift
 
 }  // namespace
 
-LabelFile read_nifti(const fs::path& file) {
+LabelFile read_nifti(const fs::path& file, const ReadOptions& options) {
     ByteStream stream(file, starts_as_gzip(file) ? Coding::deflate : Coding::plain);
     const NiftiHeader h = read_header(stream);
     LabelFile result;
-    LabelVolume& volume = result.layers.front();
-    volume.size = volume_size(h, file);
-    const ScalarLayout layout{scalar_type(h.datatype, file), h.swapped, false, volume.size};
+    const Index3 size = volume_size(h, file);
+    const ScalarLayout layout{.type = scalar_type(h.datatype, file),
+                              .swap_bytes = h.swapped,
+                              .size = size,
+                              .layers = volume_count(h, options.one_hot, file)};
     check_scaling(h, file);
 
-    Eigen::Affine3d ras = index_to_ras(h, volume.size, file, result.warnings);
+    Eigen::Affine3d ras = index_to_ras(h, size, options.orientation, file, result.warnings);
     ras.affine() *= unit_in_mm(h, file, result.warnings);
-    volume.index_to_lps = Eigen::Scaling(-1.0, -1.0, 1.0) * ras;
-    check_geometry(volume.index_to_lps, file);
+    const Eigen::Affine3d lps = Eigen::Scaling(-1.0, -1.0, 1.0) * ras;
+    check_geometry(lps, file);
 
-    volume.names = read_extensions(stream, h, payload_offset(h, file));
-    volume.values = read_scalars(stream, layout, result.warnings);
+    const auto names = read_extensions(stream, h, payload_offset(h, file));
+    if (options.one_hot) {
+        OneHot labels(size, file);
+        read_volumes(stream, layout, result.warnings,
+                     [&](std::vector<std::int32_t>&& volume) { labels.take(volume); });
+        result.layers = labels.finish(lps, names, result.warnings);
+    } else {
+        result.layers = {{size, lps, read_scalars(stream, layout, result.warnings), names}};
+    }
     return result;
 }
 

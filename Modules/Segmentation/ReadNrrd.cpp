@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <sstream>
 
 #include "Core/Errors.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/ItkImage.h"
 #include "Segmentation/NrrdHeader.h"
+#include "Segmentation/OneHot.h"
 #include "Segmentation/TextHeader.h"
 
 namespace myotet::segmentation {
@@ -24,24 +24,7 @@ struct Storage {
 };
 
 std::uint64_t data_bytes(const NrrdMeaning& meaning) {
-    std::uint64_t bytes = 8;
-    switch (meaning.type) {
-        case ScalarType::int8:
-        case ScalarType::uint8:
-            bytes = 1;
-            break;
-        case ScalarType::int16:
-        case ScalarType::uint16:
-            bytes = 2;
-            break;
-        case ScalarType::int32:
-        case ScalarType::uint32:
-        case ScalarType::float32:
-            bytes = 4;
-            break;
-        default:
-            break;
-    }
+    std::uint64_t bytes = size_of(meaning.type) * static_cast<std::uint64_t>(meaning.layers);
     for (const int n : meaning.size) bytes *= static_cast<std::uint64_t>(n);
     return bytes;
 }
@@ -97,52 +80,60 @@ ByteStream open_data(const TextHeader& header, const Storage& storage, const Nrr
     return stream;
 }
 
-std::optional<std::array<double, 3>> parse_colour(const std::string& text) {
-    std::istringstream in(text);
-    std::array<double, 3> colour{};
-    for (double& channel : colour)
-        if (!(in >> channel)) return {};
-    return colour;
+/// Volumes into layers as they are, with the names of each layer's segments.
+std::vector<LabelVolume> read_layers(ByteStream& stream, const ScalarLayout& layout,
+                                     const TextHeader& header, NrrdMeaning& meaning) {
+    std::vector<LabelVolume> layers;
+    read_volumes(stream, layout, meaning.warnings, [&](std::vector<std::int32_t>&& values) {
+        layers.push_back({meaning.size, meaning.index_to_lps, std::move(values), {}});
+    });
+    auto names = segment_names(header, meaning.layers);
+    bool any = false;
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+        layers[n].names = std::move(names[n]);
+        any |= !layers[n].names.empty();
+    }
+    if (!any && layers.size() > 1)
+        meaning.warnings.push_back(stream.file().string() + ": its " +
+                                   std::to_string(layers.size()) +
+                                   " values a voxel were taken as layers of labels, though it "
+                                   "names no segments.");
+    return layers;
 }
 
-/// 3D Slicer's SegmentN_LabelValue, _Name (or _ID) and _Color.
-std::map<std::int32_t, LabelName> segment_names(const TextHeader& header) {
+/// Volumes as masks of labels, which segment n of the header names.
+std::vector<LabelVolume> read_one_hot(ByteStream& stream, const ScalarLayout& layout,
+                                      const TextHeader& header, NrrdMeaning& meaning) {
+    OneHot labels(meaning.size, stream.file());
+    read_volumes(stream, layout, meaning.warnings,
+                 [&](std::vector<std::int32_t>&& values) { labels.take(values); });
     std::map<std::int32_t, LabelName> names;
-    constexpr std::string_view kPrefix = "Segment", kSuffix = "_LabelValue";
-    for (const auto& [key, value] : header.metadata) {
-        if (!key.starts_with(kPrefix) || !key.ends_with(kSuffix)) continue;
-        const std::string segment = key.substr(0, key.size() - kSuffix.size());
-        std::int32_t label = 0;
-        if (std::from_chars(value.data(), value.data() + value.size(), label).ec != std::errc())
-            continue;
-        const auto get = [&](const char* what) {
-            const auto it = header.metadata.find(segment + what);
-            return it == header.metadata.end() ? std::string() : it->second;
-        };
-        LabelName name{get("_Name").empty() ? get("_ID") : get("_Name"),
-                       parse_colour(get("_Color"))};
-        if (!name.name.empty()) names.emplace(label, std::move(name));
+    std::int32_t label = 0;
+    for (auto& layer : segment_names(header, meaning.layers)) {
+        ++label;
+        if (layer.size() == 1) names.emplace(label, std::move(layer.begin()->second));
     }
-    return names;
+    return labels.finish(meaning.index_to_lps, names, meaning.warnings);
 }
 
 }  // namespace
 
-LabelFile read_nrrd(const fs::path& file) {
+LabelFile read_nrrd(const fs::path& file, const ReadOptions& options) {
     const TextHeader header = read_nrrd_header(file);
-    NrrdMeaning meaning = interpret_nrrd(header, file);
-    LabelFile result;
-    result.layers.front().size = meaning.size;
-    result.layers.front().index_to_lps = meaning.index_to_lps;
-    result.layers.front().names = segment_names(header);
-    result.warnings = std::move(meaning.warnings);
-
+    NrrdMeaning meaning = interpret_nrrd(header, file, options.one_hot);
     const Storage storage = find_storage(header, file);
     const bool stored_big = lower_case(header.get("endian")) == "big";
     ByteStream stream = open_data(header, storage, meaning, file);
-    const ScalarLayout layout{meaning.type, stored_big != (std::endian::native == std::endian::big),
-                              storage.ascii, meaning.size};
-    result.layers.front().values = read_scalars(stream, layout, result.warnings);
+    const ScalarLayout layout{.type = meaning.type,
+                              .swap_bytes = stored_big != (std::endian::native == std::endian::big),
+                              .ascii = storage.ascii,
+                              .size = meaning.size,
+                              .layers = meaning.layers,
+                              .interleaved = meaning.interleaved};
+    LabelFile result;
+    result.layers = options.one_hot ? read_one_hot(stream, layout, header, meaning)
+                                    : read_layers(stream, layout, header, meaning);
+    result.warnings = std::move(meaning.warnings);
     return result;
 }
 

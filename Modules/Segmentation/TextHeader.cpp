@@ -48,6 +48,17 @@ private:
     std::uint64_t offset_ = 0;
 };
 
+/// Whether a file lies in a folder or below it, links followed.
+bool lies_in(const fs::path& folder, const fs::path& file) {
+    std::error_code error;
+    const fs::path root = fs::weakly_canonical(folder, error);
+    if (error) return false;
+    const fs::path target = fs::weakly_canonical(file, error);
+    if (error) return false;
+    const fs::path relative = target.lexically_relative(root);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
@@ -147,8 +158,12 @@ fs::path data_file_beside(const fs::path& header, const std::string& name) {
     if (lower_case(name).starts_with("list") || name.find('%') != std::string::npos)
         throw InputError(header.string() + ": its voxels lie in several files ('" + name +
                          "'), which is not supported; save the volume as one file");
-    const fs::path data =
-        fs::path(name).is_absolute() ? fs::path(name) : header.parent_path() / name;
+    const fs::path folder = header.has_parent_path() ? header.parent_path() : fs::path(".");
+    const fs::path data = folder / name;  // an absolute name stays as it is
+    if (!lies_in(folder, data))
+        throw InputError(header.string() + ": its voxels should lie in '" + name +
+                         "', outside the header's folder, where a header may not point; move the "
+                         "file beside the header and name it there");
     std::error_code ignored;
     if (!fs::is_regular_file(data, ignored))
         throw IoError(header.string() + ": its voxels should lie in " + data.string() +

@@ -36,8 +36,9 @@ struct TextHeader {
 /// follows the first thing that is no number is left out.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text);
 
-/// The data file that a header names, beside the header; InputError for lists
-/// and patterns of files, IoError when it is missing.
+/// The data file that a header names, in the header's folder or below it;
+/// InputError for files elsewhere (a header from a stranger may name any file)
+/// and for lists and patterns of files, IoError when it is missing.
 [[nodiscard]] std::filesystem::path data_file_beside(const std::filesystem::path& header,
                                                      const std::string& name);
 

@@ -183,13 +183,42 @@ TEST(ReadLabels, RefusesWhatIsNoLabelFile) {
                  IoError);
     EXPECT_THROW((void)read_labels(samples::write_bytes(folder.path() / "scan.dcm", "DICM")),
                  InputError);
-    EXPECT_THROW(write_labels(samples::make_volume(), folder.path() / "scan.stl"), InputError);
+    for (const char* name : {"scan.stl", "scan.dcm", "scan.nhdr"})
+        EXPECT_THROW(write_labels(samples::make_volume(), folder.path() / name), InputError);
+}
+
+TEST(ReadLabels, RefusesOptionsThatAFormatDoesNotHave) {
+    const TemporaryFolder folder;
+    for (const char* name : {"scan.mha", "scan.nrrd"}) {
+        const fs::path file = folder.path() / name;
+        write_labels(samples::make_volume(), file);
+        EXPECT_THROW((void)read_labels(file, {.orientation = Orientation::qform}), InputError);
+    }
+    EXPECT_THROW((void)read_labels(folder.path() / "scan.mha", {.one_hot = true}), InputError);
+}
+
+TEST(ReadLabels, ATableNamesAValueInEachLayerThatHoldsIt) {
+    const TemporaryFolder folder;
+    const fs::path table = samples::write_bytes(folder.path() / "mine.txt", "1 a\n2 b\n3 c\n");
+    const fs::path file = samples::write_bytes(
+        folder.path() / "scan.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 2 1 1\nencoding: ascii\nspace: LPS\n"
+        "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: list domain domain domain\n\n"
+        "1 1 2 0\n");
+    const LabelFile found = read_labels(file, {.names = table});
+    ASSERT_EQ(found.layers.size(), 2u);
+    EXPECT_EQ(found.layers[0].names.size(), 2u);
+    EXPECT_EQ(found.layers[0].name_of(2), "b");
+    EXPECT_EQ(found.layers[1].names.size(), 1u);
+    EXPECT_EQ(found.layers[1].name_of(1), "a");
+    EXPECT_THAT(found.warnings, ::testing::Contains(HasSubstr("value 1 is in several layers")));
 }
 
 TEST(ReadLabels, KnowsItsExtensions) {
-    for (const char* name : {"a.nii", "b/a.NII.GZ", "a.nrrd", "a.seg.nrrd", "a.mha", "a.mhd"})
+    for (const char* name :
+         {"a.nii", "b/a.NII.GZ", "a.nrrd", "a.seg.nrrd", "a.mha", "a.mhd", "a.dcm"})
         EXPECT_TRUE(is_label_file(name)) << name;
-    for (const char* name : {"a.obj", "a.gz", ".nii", "nrrd", "a.dcm", ""})
+    for (const char* name : {"a.obj", "a.gz", ".nii", "nrrd", "a.jpg", ""})
         EXPECT_FALSE(is_label_file(name)) << name;
 }
 

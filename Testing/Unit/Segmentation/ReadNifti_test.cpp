@@ -23,12 +23,13 @@ constexpr std::size_t kDim = 40, kDatatype = 70, kPixdim = 76, kVoxOffset = 108,
 
 class Nifti : public ::testing::Test {
 protected:
-    LabelFile read(const std::string& bytes) {
-        return read_labels(samples::write_bytes(folder.path() / "scan.nii", bytes));
+    LabelFile read(const std::string& bytes, const ReadOptions& options = {}) {
+        return read_labels(samples::write_bytes(folder.path() / "scan.nii", bytes), options);
     }
-    void expect_refused(const std::string& bytes, const char* reason) {
+    void expect_refused(const std::string& bytes, const char* reason,
+                        const ReadOptions& options = {}) {
         try {
-            (void)read(bytes);
+            (void)read(bytes, options);
             ADD_FAILURE() << "read, but: " << reason;
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), HasSubstr("scan.nii"));
@@ -71,11 +72,85 @@ TEST_F(Nifti, WarnsWhenThePlaceIsAmbiguous) {
     EXPECT_EQ(found.layers.front().spacing(), Vec3(1, 1, 1));
     ASSERT_EQ(found.warnings.size(), 1u);
     EXPECT_THAT(found.warnings[0], HasSubstr("nothing of its place"));
-    // A qform without rotation, at the origin: elsewhere than the sform.
-    const LabelFile both = read(with(nifti_bytes(), kQformCode, std::int16_t{1}));
-    ASSERT_EQ(both.warnings.size(), 1u);
-    EXPECT_THAT(both.warnings[0], HasSubstr("the sform was used"));
-    EXPECT_EQ(both.layers.front().spacing(), Vec3(2, 3, 4));
+}
+
+/// A header whose qform says the same as its sform, without a turn.
+std::string with_qform(std::string bytes, float qoffset_x = 10) {
+    bytes = with(bytes, kQformCode, std::int16_t{1});
+    const float offset[3] = {qoffset_x, 20, 30}, pixdim[4] = {1, 2, 3, 4};
+    for (int n = 0; n < 3; ++n) bytes = with(bytes, kQuatern + 12 + 4 * n, offset[n]);
+    for (int n = 0; n < 4; ++n) bytes = with(bytes, kPixdim + 4 * n, pixdim[n]);
+    return bytes;
+}
+
+TEST_F(Nifti, RefusesFormsThatDisagreeByMoreThanHalfAVoxel) {
+    // The smallest spacing is 2: half a voxel is 1 mm.
+    for (const float x : {10.0F, 9.1F, 10.9F}) {
+        const LabelFile found = read(with_qform(nifti_bytes(), x));
+        EXPECT_TRUE(found.warnings.empty());
+        EXPECT_EQ(found.layers.front().index_to_lps * Vec3(0, 0, 0), Vec3(-10, -20, 30));
+    }
+    const std::string apart = with_qform(nifti_bytes(), 11.1F);
+    for (const char* said : {"(10, 20, 30) RAS by the sform", "(11.1, 20, 30) by the qform",
+                             "--orientation sform or --orientation qform"})
+        expect_refused(apart, said);
+    EXPECT_EQ(read(apart, {.orientation = Orientation::sform}).layers.front().index_to_lps *
+                  Vec3(0, 0, 0),
+              Vec3(-10, -20, 30));
+    constexpr double kFloat = 1e-5;  // the header has 32 bit
+    EXPECT_NEAR((read(apart, {.orientation = Orientation::qform}).layers.front().index_to_lps *
+                 Vec3(0, 0, 0))[0],
+                -11.1, kFloat);
+}
+
+TEST_F(Nifti, ComparesFormsOverTheWholeVolume) {
+    // Same first voxel, half a per cent longer steps: 1 mm apart at voxel 100, not at voxel 1.
+    const std::string near = with(with_qform(nifti_bytes()), kPixdim + 4, 2.01F);
+    EXPECT_NO_THROW((void)read(near));
+    std::string far = with(with(near, kDim + 2, std::int16_t{150}), kDim + 4, std::int16_t{1});
+    far = with(far, kDim + 6, std::int16_t{1}).substr(0, 352) + std::string(150, '\1');
+    expect_refused(far, "voxel (149, 0, 0)");
+}
+
+TEST_F(Nifti, RefusesAFormThatIsAskedForAndAbsent) {
+    expect_refused(nifti_bytes(), "the qform is asked for, but the header has none",
+                   {.orientation = Orientation::qform});
+    expect_refused(with(nifti_bytes(), kSformCode, std::int16_t{0}), "the sform is asked for",
+                   {.orientation = Orientation::sform});
+    expect_refused(with(nifti_bytes(), kSrow, std::numeric_limits<float>::quiet_NaN()),
+                   "not finite", {.orientation = Orientation::sform});
+}
+
+/// Three masks of 2 x 2 x 2 voxels; the second overlaps the first, the third none.
+std::string one_hot_bytes() {
+    std::string bytes = with(with(nifti_bytes(), kDim, std::int16_t{4}), kDim + 8, std::int16_t{3});
+    bytes.resize(352);
+    return bytes + std::string("\1\1\0\0\0\0\0\0", 8) + std::string("\0\5\5\0\0\0\0\0", 8) +
+           std::string("\0\0\0\0\0\0\1\1", 8);
+}
+
+TEST_F(Nifti, ReadsMasksOfLabelsOnlyWhenAsked) {
+    expect_refused(one_hot_bytes(), "3 volumes along dimension 4");
+    expect_refused(one_hot_bytes(), "--one-hot");
+    const LabelFile found = read(one_hot_bytes(), {.one_hot = true});
+    ASSERT_EQ(found.layers.size(), 2u);
+    EXPECT_EQ(found.layers[0].values, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 3, 3}));
+    EXPECT_EQ(found.layers[1].values, (std::vector<std::int32_t>{0, 2, 2, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(found.layers[1].index_to_lps.matrix(), found.layers[0].index_to_lps.matrix());
+}
+
+TEST_F(Nifti, RefusesMasksThatAreNone) {
+    std::string several = one_hot_bytes();
+    several[353] = 2;
+    expect_refused(several, "volume 1 holds the values 1 and 2", {.one_hot = true});
+    std::string empty = one_hot_bytes();
+    empty[366] = empty[367] = empty[374] = empty[375] = 0;
+    EXPECT_THAT(read(empty, {.one_hot = true}).warnings,
+                ::testing::ElementsAre(HasSubstr("no voxel is set in volume 3")));
+    const std::string five =
+        with(with(one_hot_bytes(), kDim, std::int16_t{5}), kDim + 10, std::int16_t{2});
+    expect_refused(five, "2 volumes along dimension 5", {.one_hot = true});
+    expect_refused(one_hot_bytes().substr(0, 370), "too short", {.one_hot = true});
 }
 
 TEST_F(Nifti, TakesTheUnitFromTheHeader) {
@@ -165,6 +240,7 @@ TEST_F(Nifti, SkipsExtensionsThatAreNotNames) {
 TEST_F(Nifti, TellsOfBytesThatTheHeaderDoesNotKnow) {
     EXPECT_THAT(read(nifti_bytes() + "abc").warnings,
                 ::testing::ElementsAre(HasSubstr("3 bytes more")));
+    expect_refused(nifti_bytes() + std::string(17, '\1'), "17 bytes more");
 }
 
 }  // namespace

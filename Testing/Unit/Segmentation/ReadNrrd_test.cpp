@@ -24,8 +24,8 @@ std::string header(const std::string& more, const std::string& encoding = "raw",
 
 class Nrrd : public ::testing::Test {
 protected:
-    LabelFile read(const std::string& bytes) {
-        return read_labels(samples::write_bytes(folder.path() / "scan.nrrd", bytes));
+    LabelFile read(const std::string& bytes, const ReadOptions& options = {}) {
+        return read_labels(samples::write_bytes(folder.path() / "scan.nrrd", bytes), options);
     }
     void expect_refused(const std::string& bytes, const char* reason) {
         try {
@@ -130,13 +130,94 @@ TEST_F(Nrrd, TakesASoleLayer) {
     EXPECT_EQ(found.layers.front().index_to_lps * Vec3(1, 1, 1), Vec3(3, -5, 7));
 }
 
-TEST_F(Nrrd, RefusesLayers) {
+/// Two values a voxel of 2 x 2 x 1 voxels: layer 0 is 1 1 2 0, layer 1 is 0 1 1 0.
+std::string layered(const std::string& kind, const std::string& more = "") {
+    return "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 2 2 1\nencoding: raw\nspace: LPS\n"
+           "space directions: none (1,0,0) (0,2,0) (0,0,3)\nkinds: " +
+           kind + " domain domain domain\nspace origin: (4,5,6)\n" + more + "\n" +
+           std::string("\1\0\1\1\2\1\0\0", 8);
+}
+
+TEST_F(Nrrd, KeepsLayersApartWithTheirNames) {
+    const LabelFile found =
+        read(layered("list",
+                     "Segment0_ID:=a\nSegment0_Name:=bone\nSegment0_LabelValue:=1\n"
+                     "Segment0_Layer:=0\nSegment1_ID:=b\nSegment1_Name:=tendon\n"
+                     "Segment1_LabelValue:=1\nSegment1_Layer:=1\nSegment1_Color:=0 0.5 1\n"
+                     "Segment2_ID:=c\nSegment2_Name:=muscle\nSegment2_LabelValue:=2\n"
+                     "Segment2_Layer:=0\n"));
+    ASSERT_EQ(found.layers.size(), 2u);
+    EXPECT_EQ(found.layers[0].values, (std::vector<std::int32_t>{1, 1, 2, 0}));
+    EXPECT_EQ(found.layers[1].values, (std::vector<std::int32_t>{0, 1, 1, 0}));
+    EXPECT_EQ(found.layers[0].name_of(1), "bone");
+    EXPECT_EQ(found.layers[0].name_of(2), "muscle");
+    EXPECT_EQ(found.layers[1].name_of(1), "tendon");
+    EXPECT_EQ(found.layers[1].names.at(1).colour, (std::array<double, 3>{0, 0.5, 1}));
+    EXPECT_EQ(found.layers[1].index_to_lps * Vec3(1, 1, 1), Vec3(5, 7, 9));
+    EXPECT_TRUE(found.warnings.empty());
+}
+
+TEST_F(Nrrd, ReadsSegmentsOfSlicersFirstFormWithoutValueAndLayer) {
+    const LabelFile found =
+        read(layered("vector", "Segment0_ID:=a\nSegment0_Name:=bone\nSegment1_ID:=b\n"));
+    ASSERT_EQ(found.layers.size(), 2u);
+    EXPECT_EQ(found.layers[0].name_of(1), "bone");
+    EXPECT_EQ(found.layers[1].name_of(1), "b");
+}
+
+TEST_F(Nrrd, TellsWhenItTakesValuesForLayers) {
+    EXPECT_THAT(read(layered("list")).warnings,
+                ::testing::ElementsAre(HasSubstr("taken as layers")));
+}
+
+TEST_F(Nrrd, ReadsLayersThatComeLast) {
+    const LabelFile found = read(
+        "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 2 1 2\nencoding: ascii\nspace: LPS\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,1) none\nkinds: domain domain domain list\n\n"
+        "1 1 2 0  0 1 1 0\n");
+    ASSERT_EQ(found.layers.size(), 2u);
+    EXPECT_EQ(found.layers[0].values, (std::vector<std::int32_t>{1, 1, 2, 0}));
+    EXPECT_EQ(found.layers[1].values, (std::vector<std::int32_t>{0, 1, 1, 0}));
+}
+
+TEST_F(Nrrd, ReadsMasksOfLabelsWhenAsked) {
+    expect_refused(layered("none"), "--one-hot");
+    std::string masks = layered("none", "Segment1_Name:=passed over, for there is no Segment0\n");
+    masks[masks.size() - 4] = 1;  // voxel 2 of the first: 1 1 1 0
+    const LabelFile found = read(masks, {.one_hot = true});
+    ASSERT_EQ(found.layers.size(), 2u);
+    EXPECT_EQ(found.layers[0].values, (std::vector<std::int32_t>{1, 1, 1, 0}));
+    EXPECT_EQ(found.layers[1].values, (std::vector<std::int32_t>{0, 2, 2, 0}));
+}
+
+TEST_F(Nrrd, RefusesColoursAndVectors) {
+    expect_refused(layered("RGB-color"), "colours");
+    expect_refused(layered("covariant-vector"), "covariant-vector");
     expect_refused(
-        "NRRD0004\ntype: unsigned char\ndimension: 4\nsizes: 2 2 2 2\nencoding: raw\n"
-        "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
-        "kinds: list domain domain domain\nspace origin: (0,0,0)\n\n" +
-            kData + kData,
-        "layers");
+        "NRRD0004\ntype: uint8\ndimension: 5\nsizes: 2 1 1 1 2\nencoding: ascii\nspace: LPS\n"
+        "space directions: none (1,0,0) (0,1,0) (0,0,1) none\n"
+        "kinds: list domain domain domain list\n\n1 1 1 1\n",
+        "several");
+}
+
+TEST_F(Nrrd, FollowsAHeaderOnlyIntoItsOwnFolder) {
+    std::filesystem::create_directories(folder.path() / "case" / "data");
+    samples::write_bytes(folder.path() / "secret.raw", kData);
+    samples::write_bytes(folder.path() / "case" / "data" / "own.raw", kData);
+    std::filesystem::create_symlink("../secret.raw", folder.path() / "case" / "link.raw");
+    const auto file = folder.path() / "case" / "scan.nhdr";
+    const auto read_with = [&](const std::string& data) {
+        return read_labels(
+            samples::write_bytes(file, header(kPlace + "data file: " + data + "\n")));
+    };
+    EXPECT_EQ(read_with("data/own.raw").layers.front().values.back(), 7);
+    EXPECT_EQ(read_with("data/../data/own.raw").layers.front().values.back(), 7);
+    EXPECT_EQ(
+        read_with((folder.path() / "case/data/own.raw").string()).layers.front().values.back(), 7);
+    for (const std::string& data :
+         {std::string("../secret.raw"), (folder.path() / "secret.raw").string(),
+          std::string("data/../../secret.raw"), std::string("link.raw"), std::string("/dev/zero")})
+        EXPECT_THROW((void)read_with(data), InputError) << data;
 }
 
 }  // namespace
