@@ -49,6 +49,16 @@ void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {
                     "voxels; 0: none)")
         ->check(kNotNegative)
         ->type_name("MM");
+    using levelset::Smoothing;
+    static const std::map<std::string, Smoothing> kinds = {{"curvature", Smoothing::curvature},
+                                                           {"constrained", Smoothing::constrained},
+                                                           {"none", Smoothing::none}};
+    command
+        .add_option("--smoothing", choices.smoothing,
+                    "curvature: motion by mean curvature; constrained: the same, but no voxel's "
+                    "centre changes sides; none: the voxels' staircase (default: curvature)")
+        ->transform(CLI::CheckedTransformer(kinds))
+        ->type_name("KIND");
 }
 
 }  // namespace myotet::app

@@ -12,6 +12,7 @@ namespace myotet::app {
 /// How the input becomes level sets.
 struct LevelSetChoices {
     double spacing = 0;  ///< of the samples, mm; 0: from the voxels; a surface needs one
+    levelset::Smoothing smoothing = levelset::Smoothing::curvature;  ///< of labels
     double smooth = -1;  ///< mm; negative: from the voxel size; none for a surface
 };
 

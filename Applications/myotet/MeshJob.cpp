@@ -60,9 +60,9 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     }
     seconds["write"] = watch.lap();
 
-    report.seconds = seconds;
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
+    report.run.seconds = seconds;
+    report.run.peak_memory = peak_memory();
+    report.run.processor_seconds = processor_seconds();
     out.write("report.json",
               [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
     progress.check();

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "Core/TetMesh.h"
 #include "Quality/Quality.h"
+#include "RunFacts.h"
 
 namespace myotet::app {
 
@@ -16,6 +18,7 @@ struct TissueReport {
     std::int32_t label = 0;
     std::string name;
     std::int64_t voxels = 0;
+    std::optional<levelset::SmoothingReport> smoothing;  ///< of labels
     int components_in = 0, components_out = 0;
     double volume_labels = 0, volume_mesh = 0;  ///< mm^3
     std::size_t vertices = 0, tets = 0;
@@ -32,16 +35,8 @@ struct TissueReport {
 
 /// What the report says about the whole run.
 struct RunReport {
-    std::string input, input_sha256, output;
-    std::vector<std::pair<std::string, std::string>> options_text;  ///< as resolved
-    std::vector<std::pair<std::string, double>> options_number;
-    std::vector<std::int32_t> labels;
-    int threads = 0;
-    double peak_memory = 0;  ///< bytes
-    double processor_seconds = 0;
-    std::map<std::string, double> seconds;  ///< by stage
-    std::vector<std::string> warnings;
-    std::vector<TissueReport> tissues;  ///< by label value
+    RunFacts run;
+    std::vector<TissueReport> tissues;  ///< by layer and label value
 };
 
 /// Fills in all that the mesh itself tells: counts, shapes, topology, edges.

@@ -11,12 +11,6 @@
 namespace myotet::app {
 namespace {
 
-std::vector<std::int32_t> values_of(const std::vector<Tissue>& tissues) {
-    std::vector<std::int32_t> values;
-    for (const Tissue& tissue : tissues) values.push_back(tissue.label);
-    return values;
-}
-
 double count_tets(const std::vector<TissueMesh>& tissues) {
     double count = 0;
     for (const TissueMesh& tissue : tissues) count += static_cast<double>(tissue.mesh.tets.size());
@@ -70,7 +64,8 @@ std::vector<TissueMesh> mesh_to_size(TissueSets& tissue_sets, const Scan& scan,
 }
 
 void write_tissue(TissueMesh& tissue, OutputFolder& out) {
-    const std::string stem = file_stem(tissue.report.label, tissue.report.name);
+    const std::string stem =
+        file_stem(tissue.report.layer, tissue.report.label, tissue.report.name);
     out.write(stem + ".vtu", [&](const std::filesystem::path& file) {
         meshfiles::write_vtu(tissue.mesh, {{tissue.report.label, tissue.report.name}}, file);
     });
@@ -84,25 +79,16 @@ RunReport describe_run(const JobOptions& options, const Scan& scan, const meshin
                        const TissueSets& sets) {
     const meshing::LevelPlan plan = meshing::plan_levels(sizes);
     RunReport report;
-    report.input = options.scan.input.string();
-    report.input_sha256 = scan.sha256;
-    report.output = options.output.string();
-    report.labels = values_of(sets.tissues);
-    report.options_text = {
-        {"names_from", scan.names_from.string()},
-        {"compress", options.compress},
-        {"input_unit",
-         options.scan.input_unit.empty() && scan.surface ? "mm" : options.scan.input_unit}};
-    report.options_number = {
+    report.run = describe_level_sets(options.scan, options.level_sets, scan, sets);
+    report.run.output = options.output.string();
+    report.run.options_text.emplace_back("compress", options.compress);
+    const std::initializer_list<std::pair<std::string, double>> numbers = {
         {"tets", options.sizes.tets > 0 ? static_cast<double>(options.sizes.tets) : NAN},
         {"edge_length_mm", sizes.edge_length},
         {"interior_edge_length_mm", plan.coarsest_edge},
         {"smallest_edge_length_mm", plan.smallest_edge},
-        {"curvature", sizes.curvature_factor},
-        {"smooth_mm", sets.sets.smooth},
-        {"level_set_spacing_mm", sets.sets.spacing}};
-    report.threads = thread_count();
-    report.warnings = scan.warnings;
+        {"curvature", sizes.curvature_factor}};
+    report.run.options_number.insert(report.run.options_number.begin(), numbers);
     return report;
 }
 

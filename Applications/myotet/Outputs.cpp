@@ -42,11 +42,11 @@ void remove_all(const std::vector<fs::path>& made) {
 
 }  // namespace
 
-std::string file_stem(std::int32_t value, std::string_view name) {
+std::string file_stem(int layer, std::int32_t value, std::string_view name) {
     std::string safe(shortened(name));
     std::ranges::replace_if(
         safe, [](unsigned char c) { return !harmless(c); }, '_');
-    return std::to_string(value) + "_" + safe;
+    return (layer > 0 ? std::to_string(layer) + "-" : "") + std::to_string(value) + "_" + safe;
 }
 
 OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {

@@ -9,9 +9,9 @@
 
 namespace myotet::app {
 
-/// "<value>_<name>" with every character that a file system or a shell might
-/// stumble over replaced by '_'; letters beyond ASCII stay.
-[[nodiscard]] std::string file_stem(std::int32_t value, std::string_view name);
+/// "<value>_<name>", "<layer>-<value>_<name>" for layers above 0, with every character that a file
+/// system or a shell might stumble over replaced by '_'; letters beyond ASCII stay.
+[[nodiscard]] std::string file_stem(int layer, std::int32_t value, std::string_view name);
 
 /// A folder that results go to. It is created by the first file; unless
 /// keep() is called, what was written is removed again.

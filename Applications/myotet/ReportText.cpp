@@ -12,16 +12,27 @@ using Json = nlohmann::ordered_json;  // keys in the order in which they are rea
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
+Json count_or_null(std::int64_t count) { return count > 0 ? Json(count) : Json(nullptr); }
+
+Json smoothing_json(const std::optional<levelset::SmoothingReport>& s) {
+    if (!s) return nullptr;
+    return {{"moved_mean_mm", s->moved_mean},      {"moved_95_percent_mm", s->moved_95},
+            {"moved_max_mm", s->moved_max},        {"volume_before_mm3", s->volume_before},
+            {"volume_after_mm3", s->volume_after}, {"voxels_lost", s->voxels_lost},
+            {"voxels_gained", s->voxels_gained}};
+}
+
 Json tissue_json(const TissueReport& t) {
     return {
         {"layer", t.layer},
         {"label", t.label},
         {"name", t.name},
-        {"voxels", t.voxels > 0 ? Json(t.voxels) : Json(nullptr)},
+        {"voxels", count_or_null(t.voxels)},
         {"components_in", t.components_in},
         {"components_out", t.components_out},
         {"volume_labels_mm3", t.volume_labels},
         {"volume_mesh_mm3", t.volume_mesh},
+        {"smoothing", smoothing_json(t.smoothing)},
         {"vertices", t.vertices},
         {"tets", t.tets},
         {"min_dihedral_deg", number_or_null(t.shapes.min_dihedral_deg)},
@@ -42,13 +53,33 @@ Json tissue_json(const TissueReport& t) {
         {"files", t.files}};
 }
 
-Json options_json(const RunReport& report) {
+Json options_json(const RunFacts& report) {
     Json options = Json::object();
     for (const auto& [key, value] : report.options_text)
         options[key] = value.empty() ? Json(nullptr) : Json(value);
     for (const auto& [key, value] : report.options_number) options[key] = number_or_null(value);
     options["labels"] = report.labels;
     return options;
+}
+
+Json run_json(const RunFacts& run) {
+    return {{"program", "myotet"},
+            {"version", MYOTET_VERSION},
+            {"input", run.input},
+            {"input_sha256", run.input_sha256},
+            {"output", run.output},
+            {"frame", "LPS"},
+            {"units", "mm"},
+            {"options", options_json(run)},
+            {"threads", run.threads},
+            {"peak_memory_bytes", run.peak_memory},
+            {"processor_seconds", run.processor_seconds},
+            {"seconds", run.seconds},
+            {"warnings", run.warnings}};
+}
+
+std::string written(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string row(const char* label, const std::string& name, const TissueReport& t) {
@@ -64,22 +95,29 @@ std::string row(const char* label, const std::string& name, const TissueReport& 
 }  // namespace
 
 std::string to_json(const RunReport& report) {
-    Json run = {{"program", "myotet"},
-                {"version", MYOTET_VERSION},
-                {"input", report.input},
-                {"input_sha256", report.input_sha256},
-                {"output", report.output},
-                {"frame", "LPS"},
-                {"units", "mm"},
-                {"options", options_json(report)},
-                {"threads", report.threads},
-                {"peak_memory_bytes", report.peak_memory},
-                {"processor_seconds", report.processor_seconds},
-                {"seconds", report.seconds},
-                {"warnings", report.warnings}};
+    Json run = run_json(report.run);
     run["tissues"] = Json::array();
     for (const TissueReport& tissue : report.tissues) run["tissues"].push_back(tissue_json(tissue));
-    return run.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return written(run);
+}
+
+std::string to_json(const LevelSetReport& report) {
+    Json run = run_json(report.run);
+    run["tissues"] = Json::array();
+    for (const LevelSetTissue& t : report.tissues)
+        run["tissues"].push_back({{"layer", t.tissue.layer},
+                                  {"label", t.tissue.label},
+                                  {"name", t.tissue.name},
+                                  {"voxels", count_or_null(t.tissue.voxels)},
+                                  {"components", t.components},
+                                  {"volume_labels_mm3", t.tissue.volume},
+                                  {"volume_level_set_mm3", t.volume},
+                                  {"inscribed_radius_mm", t.inscribed_radius},
+                                  {"smoothing", smoothing_json(t.tissue.smoothing)},
+                                  {"triangles", t.triangles},
+                                  {"notes", t.notes},
+                                  {"files", t.files}});
+    return written(run);
 }
 
 std::string to_json(const Forecast& forecast) {
@@ -119,6 +157,25 @@ std::string to_table(const RunReport& report) {
     return table;
 }
 
+std::string to_table(const LevelSetReport& report) {
+    std::string table =
+        "                                             volume  change    moved [mm]          "
+        "voxels\n"
+        " label  name                                   mm^3       %    mean    95 %     max  "
+        "changed  pieces\n";
+    for (const LevelSetTissue& t : report.tissues) {
+        char text[200];
+        const auto s = t.tissue.smoothing.value_or(levelset::SmoothingReport{});
+        const double change = t.tissue.volume > 0 ? 100 * (t.volume / t.tissue.volume - 1) : 0;
+        std::snprintf(text, sizeof text, "%6d  %-32.32s %10.6g %7.2f %7.3f %7.3f %7.3f %8lld %7d\n",
+                      t.tissue.label, t.tissue.name.c_str(), t.volume, change, s.moved_mean,
+                      s.moved_95, s.moved_max,
+                      static_cast<long long>(s.voxels_lost + s.voxels_gained), t.components);
+        table += text;
+    }
+    return table;
+}
+
 std::string quality_json(const std::string& mesh, const std::vector<TissueReport>& tissues) {
     Json all = {{"mesh", mesh}, {"units", "mm"}, {"labels", Json::array()}};
     for (const TissueReport& t : tissues)
@@ -140,7 +197,7 @@ std::string quality_json(const std::string& mesh, const std::vector<TissueReport
              {"inverted_tets", t.shapes.inverted_tets},
              {"euler_characteristic", t.topology.euler_characteristic},
              {"broken_promises", t.broken_promises}});
-    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return written(all);
 }
 
 std::string quality_table(const std::vector<TissueReport>& tissues) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "LevelSetJob.h"
 #include "MeshReport.h"
 #include "Sizing.h"
 
@@ -9,11 +10,15 @@ namespace myotet::app {
 /// report.json's content.
 [[nodiscard]] std::string to_json(const RunReport& report);
 
+[[nodiscard]] std::string to_json(const LevelSetReport& report);
+
 /// A forecast for programs.
 [[nodiscard]] std::string to_json(const Forecast& forecast);
 
 /// The tissues as a table for people.
 [[nodiscard]] std::string to_table(const RunReport& report);
+
+[[nodiscard]] std::string to_table(const LevelSetReport& report);
 
 /// The same for a mesh that is at hand.
 [[nodiscard]] std::string quality_json(const std::string& mesh,

@@ -106,9 +106,14 @@ Scan read_label_scan(const ScanOptions& options) {
     scan.warnings = std::move(file.warnings);
     for (const segmentation::LabelCount& c : counts) {
         const LabelVolume& volume = file.layers[c.layer];
-        scan.tissues.push_back({c.layer, c.value, volume.name_of(c.value), c.voxels,
+        scan.tissues.push_back({c.layer,
+                                c.value,
+                                volume.name_of(c.value),
+                                c.voxels,
                                 static_cast<double>(c.voxels) * volume.voxel_volume(),
-                                areas[c.layer].at(c.value), is_chosen(c)});
+                                areas[c.layer].at(c.value),
+                                {},
+                                is_chosen(c)});
     }
     scan.layers = std::move(file.layers);
     return scan;
@@ -121,8 +126,13 @@ Scan read_surface_scan(const ScanOptions& options) {
     Scan scan;
     scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
     scan.shells = count_outward_shells(*scan.surface);
-    scan.tissues = {{0, 1, options.input.stem().string(), 0, std::abs(volume(*scan.surface)),
-                     surface_area(*scan.surface)}};
+    scan.tissues = {{0,
+                     1,
+                     options.input.stem().string(),
+                     0,
+                     std::abs(volume(*scan.surface)),
+                     surface_area(*scan.surface),
+                     {}}};
     // A ball has 0.09 of this; far below a paper's thickness nothing is solid.
     constexpr double kFlat = 1e-9;
     const Tissue& tissue = scan.tissues.front();

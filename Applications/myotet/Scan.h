@@ -8,6 +8,7 @@
 
 #include "Core/LabelVolume.h"
 #include "Core/TetMesh.h"
+#include "LevelSet/FromLabels.h"
 #include "Segmentation/ReadLabels.h"
 
 namespace myotet::app {
@@ -28,7 +29,8 @@ struct Tissue {
     std::int64_t voxels = 0;  ///< 0 for a surface
     double volume = 0;        ///< mm^3
     double area = 0;          ///< of its surface, mm^2; from voxel faces for labels
-    bool asked = true;        ///< for a result; others are there as neighbours
+    std::optional<levelset::SmoothingReport> smoothing;  ///< when it has become a level set
+    bool asked = true;  ///< for a result; others are there as neighbours
 };
 
 /// The input, read and checked: labels or a surface.

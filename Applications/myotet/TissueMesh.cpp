@@ -167,6 +167,7 @@ TissueMesh join_regions(const Tissue& tissue, const std::vector<Region>& regions
     report.label = tissue.label;
     report.name = tissue.name;
     report.voxels = tissue.voxels;
+    report.smoothing = tissue.smoothing;
     report.volume_labels = tissue.volume;
     report.edge_length_asked = edge_length;
     std::size_t faces = 0;

@@ -28,6 +28,10 @@ namespace myotet::meshfiles {
 void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& label_names,
                const std::filesystem::path& file);
 
+/// Writes .vtp: triangles; field data and form as write_vtu. Throws IoError.
+void write_vtp(const TriMesh& surface, const std::map<std::int32_t, std::string>& label_names,
+               const std::filesystem::path& file);
+
 /// Reads the tetrahedra of a .vtu (labels from cell array `label`, else 0).
 /// Throws IoError, or InputError when there is no tetrahedron.
 [[nodiscard]] TetMesh read_vtu(const std::filesystem::path& file);

@@ -36,8 +36,8 @@ app::RunReport run(const app::JobOptions& options) {
     std::size_t tets = 0;
     for (const auto& t : r.tissues) tets += t.tets;
     std::printf("%s: %zu tissues, %zu tetrahedra, %.1f s of processor time, %.0f MB\n",
-                options.input.filename().c_str(), r.tissues.size(), tets, r.processor_seconds,
-                r.peak_memory / 1e6);
+                options.scan.input.filename().c_str(), r.tissues.size(), tets,
+                r.run.processor_seconds, r.run.peak_memory / 1e6);
     return r;
 }
 
@@ -71,7 +71,7 @@ void expect_classic(const char* file, double processor_seconds) {
     EXPECT_LE(t.shapes.max_dihedral_deg, kClassic.max_dihedral_deg);
     EXPECT_LE(t.distance.mean, kMeanDistance * edge);
     EXPECT_LE(t.distance.max, kMaxDistance * edge);
-    EXPECT_LE(r.processor_seconds, processor_seconds);
+    EXPECT_LE(r.run.processor_seconds, processor_seconds);
 }
 
 // Each mesh's centroid within a voxel of its label's.
@@ -106,8 +106,8 @@ void expect_scan(const char* file, std::size_t tissues, const app::SizeOptions& 
     }
     std::printf("  largest volume error %.2f %%, of small tissues %.2f %%\n", 100 * worst,
                 100 * worst_small);
-    EXPECT_LE(r.processor_seconds, processor_seconds);
-    EXPECT_LE(r.peak_memory, bytes);
+    EXPECT_LE(r.run.processor_seconds, processor_seconds);
+    EXPECT_LE(r.run.peak_memory, bytes);
     expect_in_place(input, r, folder);
 }
 

@@ -17,17 +17,18 @@ using testing::write_bytes;
 void write_text(const fs::path& file) { write_atomically(file, "text"); }
 
 TEST(FileStem, KeepsNamesAndDisarmsTheRest) {
-    EXPECT_EQ(file_stem(7, "biceps"), "7_biceps");
-    EXPECT_EQ(file_stem(0, "M. biceps/brachii: long head"), "0_M._biceps_brachii__long_head");
-    EXPECT_EQ(file_stem(12, "Wadenbeinköpfchen"), "12_Wadenbeinköpfchen");
-    EXPECT_EQ(file_stem(3, "../../etc"), "3_.._.._etc");
-    EXPECT_EQ(file_stem(3, ""), "3_");
+    EXPECT_EQ(file_stem(0, 7, "biceps"), "7_biceps");
+    EXPECT_EQ(file_stem(0, 0, "M. biceps/brachii: long head"), "0_M._biceps_brachii__long_head");
+    EXPECT_EQ(file_stem(0, 12, "Wadenbeinköpfchen"), "12_Wadenbeinköpfchen");
+    EXPECT_EQ(file_stem(0, 3, "../../etc"), "3_.._.._etc");
+    EXPECT_EQ(file_stem(0, 3, ""), "3_");
+    EXPECT_EQ(file_stem(2, 3, "ulna"), "2-3_ulna");
 }
 
 TEST(FileStem, CutsLongNamesBetweenCharacters) {
     std::string name(99, 'a');
     name += "öö";  // two bytes each: the first would be cut at byte 100
-    EXPECT_EQ(file_stem(1, name), "1_" + std::string(99, 'a'));
+    EXPECT_EQ(file_stem(0, 1, name), "1_" + std::string(99, 'a'));
 }
 
 TEST(OutputFolder, IsMadeByTheFirstFileAndKeptOnDemand) {

@@ -66,8 +66,8 @@ TEST(Measure, ATissueWithoutMeshBreaksAPromise) {
 
 TEST(ToJson, NumbersThatAreNoneAndBytesThatAreNoTextStayValid) {
     RunReport run;
-    run.input = "scan\xff.nii";
-    run.options_number = {{"tets", std::nan("")}, {"edge_length_mm", 2}};
+    run.run.input = "scan\xff.nii";
+    run.run.options_number = {{"tets", std::nan("")}, {"edge_length_mm", 2}};
     run.tissues.resize(1);
     run.tissues[0].name = "m\xfcsculo";  // Latin-1
     run.tissues[0].shapes.max_aspect_ratio = std::numeric_limits<double>::infinity();

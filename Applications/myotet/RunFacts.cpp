@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RunFacts.h"
+
+#include "Core/Parallel.h"
+
+namespace myotet::app {
+namespace {
+
+std::string name_of(levelset::Smoothing smoothing) {
+    using levelset::Smoothing;
+    return smoothing == Smoothing::none          ? "none"
+           : smoothing == Smoothing::constrained ? "constrained"
+                                                 : "curvature";
+}
+
+}  // namespace
+
+RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& choices,
+                             const Scan& scan, const TissueSets& sets) {
+    RunFacts facts;
+    facts.input = options.input.string();
+    facts.input_sha256 = scan.sha256;
+    for (const Tissue& tissue : sets.tissues) facts.labels.push_back(tissue.label);
+    const bool surface = scan.surface.has_value();
+    facts.options_text = {
+        {"names_from", scan.names_from.string()},
+        {"smoothing", surface ? "" : name_of(choices.smoothing)},
+        {"input_unit", options.input_unit.empty() && surface ? "mm" : options.input_unit}};
+    facts.options_number = {{"smooth_mm", sets.sets.smooth},
+                            {"level_set_spacing_mm", sets.sets.spacing}};
+    facts.threads = thread_count();
+    facts.warnings = scan.warnings;
+    return facts;
+}
+
+}  // namespace myotet::app
