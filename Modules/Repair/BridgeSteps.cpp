@@ -68,7 +68,7 @@ RouteTask route_task(const Band& from, const Band& to, const Bridge& bridge,
 
 // Finds the way or says why there is none.
 Route require_route(const RouteTask& task, const Surroundings& around, Workshop& shop) {
-    Route route = find_route(task, shop.progress());
+    const Route route = smoothed(find_route(task, shop.progress()), task);
     if (!route.points.empty() && route.length <= task.within) return route;
     const double gap = gap_between(task.from, task.to);
     std::string why = "the gap is " + mm(gap) + " mm straight across";
@@ -106,7 +106,7 @@ struct Growth {
     int tissue, goal;
     const Surroundings& around;
     std::vector<Vec3> path;
-    Ball begin;
+    Ball begin, end;  ///< inside the tissue and inside its goal
 
     struct Result {
         Band form;
@@ -115,7 +115,8 @@ struct Growth {
     };
     [[nodiscard]] Result with(const std::array<double, 2>& radius, int into, Workshop& shop) const {
         Result made;
-        made.line = middle_line(path, begin, radius);
+        // Deep enough to be cut off flat, but not out at the other side.
+        made.line = middle_line(path, begin, radius, std::min(radius[1], end.radius));
         const Band bridge = swept(made.line, shop.lattice());
         if (into >= 0) {
             made.form = shop.yield(into, bridge, around.givers);
@@ -134,7 +135,7 @@ struct Growth {
 Growth::Result grown_enough(const Growth& growth, std::array<double, 2> radius, int into,
                             Workshop& shop) {
     constexpr int kTrials = 8;
-    constexpr double kWider = 1.2;
+    constexpr double kWider = 1.15;
     const double over = growth.task.over;
     Growth::Result made = growth.with(radius, into, shop);
     for (int trial = 0; trial < kTrials && made.touch.area < over; ++trial) {
@@ -175,8 +176,9 @@ void run(const Grow& task, Workshop& shop) {
     // Where they touch already, that place is made wider.
     if (now.area > 0 && !search.begin) search.begin = now.centre;
     const Route route = require_route(search, around, shop);
-    Growth growth{task, tissue, goal, around, smoothed(route, search), {}};
+    Growth growth{task, tissue, goal, around, route.points, {}, {}};
     growth.begin = ball_near(shop.band(tissue), growth.path.front(), kLocal);
+    growth.end = ball_near(shop.band(goal), growth.path.back(), kLocal);
     std::array<double, 2> radius;
     radius[0] = thickness(task.bridge.radius[0], growth.begin, shop);
     radius[1] = task.bridge.radius[1] > 0
@@ -209,12 +211,12 @@ Band bridged(const Join& task, int tissue, const Band& band, const levelset::Pie
     const Surroundings around = surroundings(task.bridge, {tissue}, shop);
     const RouteTask search = route_task(parts.largest, parts.others, task.bridge, around, shop);
     const Route route = require_route(search, around, shop);
-    const std::vector<Vec3> path = smoothed(route, search);
+    const std::vector<Vec3>& path = route.points;
     const Ball begin = ball_near(parts.largest, path.front(), kLocal);
     const Ball end = ball_near(parts.others, path.back(), kLocal);
     const std::array<double, 2> radius{thickness(task.bridge.radius[0], begin, shop),
                                        thickness(task.bridge.radius[1], end, shop)};
-    const MiddleLine line = middle_line(path, begin, radius);
+    const MiddleLine line = middle_line(path, begin, radius, end.radius);
     const double blend =
         task.bridge.blend >= 0 ? task.bridge.blend : 0.5 * std::min(radius[0], radius[1]);
     note += (note.empty() ? "joined across " : ", ") + mm(route.length) + " mm at " +

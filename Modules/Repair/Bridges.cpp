@@ -11,6 +11,16 @@ namespace myotet::repair {
 
 using levelset::Band;
 
+namespace {
+
+double length_of(const std::vector<Vec3>& path) {
+    double length = 0;
+    for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+    return length;
+}
+
+}  // namespace
+
 Ball ball_near(const Band& solid, const Vec3& point, double reach) {
     constexpr double kThick = 8, kThickSamples = 10;
     const double width = std::max(kThick / solid.spacing, kThickSamples);
@@ -28,8 +38,8 @@ Ball ball_near(const Band& solid, const Vec3& point, double reach) {
     return best;
 }
 
-std::vector<Vec3> smoothed(const Route& route, const RouteTask& task) {
-    std::vector<Vec3> path = route.points;
+Route smoothed(Route route, const RouteTask& task) {
+    std::vector<Vec3>& path = route.points;
     const auto room = [&](const Vec3& p) {
         double least = std::numeric_limits<double>::infinity();
         for (const Band* wall : task.walls)
@@ -39,6 +49,7 @@ std::vector<Vec3> smoothed(const Route& route, const RouteTask& task) {
     std::vector<double> free(path.size());
     for (std::size_t i = 0; i < path.size(); ++i) free[i] = room(path[i]);
     // Steps of one sample: n rounds level bends of sqrt(n) samples.
+    if (path.empty()) return route;
     constexpr int kRounds = 60;
     for (int round = 0; round < kRounds; ++round) {
         std::vector<Vec3> next = path;
@@ -51,29 +62,33 @@ std::vector<Vec3> smoothed(const Route& route, const RouteTask& task) {
         }
         path = std::move(next);
     }
-    return path;
+    route.length = length_of(path);
+    return route;
 }
 
 MiddleLine middle_line(const std::vector<Vec3>& path, const Ball& begin,
-                       const std::array<double, 2>& radius) {
+                       const std::array<double, 2>& radius, double depth) {
     MiddleLine line;
     line.points.push_back(begin.centre);
     constexpr std::size_t kEvery = 3;  // samples: short against any bend left by smoothing
     for (std::size_t i = 0; i < path.size(); i += kEvery) line.points.push_back(path[i]);
     if (path.size() % kEvery != 1) line.points.push_back(path.back());
-    // Into the solid, so that the end that is cut off there is round no more.
+    const double length = length_of(line.points);
+    double so_far = 0;
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        if (i > 0) so_far += (line.points[i] - line.points[i - 1]).norm();
+        line.radius.push_back(length > 0 ? radius[0] + (radius[1] - radius[0]) * so_far / length
+                                         : radius[1]);
+    }
+    // On in the direction of the last few samples, over which a path bends little.
     const std::size_t back = std::min<std::size_t>(path.size() - 1, 6);
     Vec3 ahead = path.back() - path[path.size() - 1 - back];
     if (!(ahead.norm() > 0)) ahead = path.back() - begin.centre;
-    if (ahead.norm() > 0) line.points.push_back(path.back() + radius[1] * ahead.normalized());
-
-    std::vector<double> along{0};
-    for (std::size_t i = 1; i < line.points.size(); ++i)
-        along.push_back(along.back() + (line.points[i] - line.points[i - 1]).norm());
-    line.length = along.back();
-    for (const double s : along)
-        line.radius.push_back(
-            line.length > 0 ? radius[0] + (radius[1] - radius[0]) * s / line.length : radius[0]);
+    if (ahead.norm() > 0) {
+        line.points.push_back(path.back() + depth * ahead.normalized());
+        line.radius.push_back(radius[1]);
+    }
+    line.length = length_of(line.points);
     return line;
 }
 

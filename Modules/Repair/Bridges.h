@@ -22,13 +22,15 @@ struct Ball {
 };
 [[nodiscard]] Ball ball_near(const levelset::Band& solid, const Vec3& point, double reach);
 
-/// Smooths a route's stairs, its ends fixed, without entering walls.
-[[nodiscard]] std::vector<Vec3> smoothed(const Route& route, const RouteTask& task);
+/// Smooths a route's stairs, its ends fixed, without entering walls, and
+/// measures its length anew.
+[[nodiscard]] Route smoothed(Route route, const RouteTask& task);
 
-/// From the ball inside the solid that the path leaves, along the path, into
-/// the solid it reaches; `radius` at both ends.
+/// From the ball inside the solid that the path leaves, along the path, and
+/// `depth` mm into the solid it reaches. The radius grows evenly from the first
+/// to the second, which it has at the path's end and beyond.
 [[nodiscard]] MiddleLine middle_line(const std::vector<Vec3>& path, const Ball& begin,
-                                     const std::array<double, 2>& radius);
+                                     const std::array<double, 2>& radius, double depth);
 
 /// Round cones from point to point.
 [[nodiscard]] levelset::Band swept(const MiddleLine& line, const levelset::CsgLattice& lattice);
