@@ -230,16 +230,25 @@ Inspection inspect(const LabelVolume& volume) {
 }
 
 std::vector<Overlap> find_overlaps(std::span<const LabelVolume> layers) {
+    // Key: both layers, then both values, as the result is sorted.
+    std::map<std::array<std::int64_t, 4>, std::int64_t> voxels;
+    std::vector<std::size_t> claims;
+    const std::size_t count = layers.size() > 1 ? layers.front().values.size() : 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        claims.clear();
+        for (std::size_t layer = 0; layer < layers.size(); ++layer)
+            if (layers[layer].values[n] != 0) claims.push_back(layer);
+        for (std::size_t b = 1; b < claims.size(); ++b)
+            for (std::size_t a = 0; a < b; ++a)
+                ++voxels[{static_cast<std::int64_t>(claims[a]),
+                          static_cast<std::int64_t>(claims[b]), layers[claims[a]].values[n],
+                          layers[claims[b]].values[n]}];
+    }
     std::vector<Overlap> overlaps;
-    for (std::size_t a = 0; a < layers.size(); ++a)
-        for (std::size_t b = a + 1; b < layers.size(); ++b) {
-            std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> voxels;
-            for (std::size_t n = 0; n < layers[a].values.size(); ++n)
-                if (layers[a].values[n] != 0 && layers[b].values[n] != 0)
-                    ++voxels[{layers[a].values[n], layers[b].values[n]}];
-            for (const auto& [values, count] : voxels)
-                overlaps.push_back({a, b, values.first, values.second, count});
-        }
+    for (const auto& [key, number] : voxels)
+        overlaps.push_back({static_cast<std::size_t>(key[0]), static_cast<std::size_t>(key[1]),
+                            static_cast<std::int32_t>(key[2]), static_cast<std::int32_t>(key[3]),
+                            number});
     return overlaps;
 }
 

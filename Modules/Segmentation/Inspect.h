@@ -69,7 +69,7 @@ struct Overlap {
     std::int64_t voxels = 0;
 };
 
-/// By layers, then by values. Cost: one pass for each two layers.
+/// By layers, then by values. Cost: one pass.
 [[nodiscard]] std::vector<Overlap> find_overlaps(std::span<const LabelVolume> layers);
 
 }  // namespace myotet::segmentation
