@@ -17,6 +17,9 @@ struct SharedLattice {
     Index3 blocks{0, 0, 0};             ///< that cover the volume and a margin
     Eigen::Affine3d local_to_index;     ///< local coordinates, mm, to voxel index
     Vec3 plane_spacing = Vec3::Zero();  ///< between voxel planes of each axis, mm
+    /// The axis across slices so thick that regions are interpolated between
+    /// them by shape; -1: none.
+    int thick_axis = -1;
 
     [[nodiscard]] std::size_t slot(const Index3& b) const {
         return (static_cast<std::size_t>(b[2]) * blocks[1] + b[1]) * blocks[0] + b[0];

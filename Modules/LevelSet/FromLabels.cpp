@@ -16,6 +16,7 @@
 #include "LevelSet/Partition.h"
 #include "LevelSet/Redistance.h"
 #include "LevelSet/RegionMap.h"
+#include "LevelSet/SliceShape.h"
 #include "LevelSet/VoxelBand.h"
 #include "LevelSet/VoxelVolume.h"
 
@@ -53,7 +54,9 @@ void each_region(std::size_t count, std::string_view stage, ProgressSink& progre
 
 Allowance allowance_for(const LabelGrid& grid) {
     Allowance allowance;
-    allowance.voxels = grid.smooth / grid.lattice.plane_spacing.maxCoeff();
+    const Vec3& side = grid.lattice.plane_spacing;
+    const int thick = grid.lattice.thick_axis;
+    allowance.voxels = grid.smooth / (thick < 0 ? side.maxCoeff() : larger_pixel_side(side, thick));
     // Locks look one voxel far.
     if (allowance.voxels > 1) allowance.voxels = std::numeric_limits<double>::infinity();
     return allowance;
@@ -78,6 +81,8 @@ WantedVolumes wanted_volumes(const VoxelScene& scene, const LabelGrid& grid,
     for (std::size_t r = 1; r < work.size(); ++r)
         wanted.total[r] = static_cast<double>(scene.map.regions[r - 1].voxels) * voxel;
     if (!(grid.smooth > 0) || !std::isfinite(scene.allowance.voxels)) return wanted;
+    // Thick slices would bring their terraces back.
+    if (grid.lattice.thick_axis >= 0) return wanted;
     wanted.radius = kRestore * grid.smooth;
     wanted.cells.resize(work.size());
     parallel_for(0, work.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -147,9 +152,16 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     const VoxelScene scene{map, grid.lattice, claims, allowance_for(grid), kWorkWidth};
 
     std::vector<RegionBand> work(map.regions.size() + 1);
+    // Between thick slices the background is what the regions leave.
+    const bool thick = grid.lattice.thick_axis >= 0;
     each_region(work.size(), "distances", progress, [&](std::size_t r) {
-        work[r] = voxel_band(scene, static_cast<RegionMap::Owner>(r));
+        const auto owner = static_cast<RegionMap::Owner>(r);
+        if (!thick)
+            work[r] = voxel_band(scene, owner);
+        else if (r > 0)
+            work[r] = slice_band(scene, owner);
     });
+    if (thick) work[0] = background_band(scene, work);
     each_region(work.size(), "smoothing", progress,
                 [&](std::size_t r) { smooth_region(grid, progress, work[r]); });
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "Core/Errors.h"
+#include "LevelSet/SliceShape.h"
 
 namespace myotet::levelset {
 namespace {
@@ -75,7 +76,11 @@ LabelGrid lay_grid(const LabelVolume& volume, std::span<const SharedWall> walls,
     double area = 0;
     for (const SharedWall& w : walls) area += 2 * w.area;
     const double voxels = static_cast<double>(volume.values.size());
-    grid.smooth = options.smooth < 0 ? kSmoothOfVoxel * side.maxCoeff() : options.smooth;
+    // Between thick slices shape is interpolated: what is left are the pixels' steps.
+    const int thick = thick_axis(side);
+    const double step = thick < 0 ? side.maxCoeff() : larger_pixel_side(side, thick);
+    grid.smooth = options.smooth < 0 ? kSmoothOfVoxel * step : options.smooth;
+    if (grid.smooth > 0) grid.lattice.thick_axis = thick;
     const double h =
         options.spacing > 0 ? options.spacing : choose_spacing(area, voxels, grid.smooth, side);
     grid.lattice.spacing = h;

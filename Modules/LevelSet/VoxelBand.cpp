@@ -7,6 +7,7 @@
 
 #include "Core/Parallel.h"
 #include "LevelSet/Redistance.h"
+#include "LevelSet/SliceShape.h"
 
 namespace myotet::levelset {
 namespace {
@@ -25,7 +26,9 @@ struct Prober {
     const RegionMap& map;
     RegionMap::Owner owner;
     Vec3 plane_spacing;
-    Index3 window;  // voxels to look at on either side
+    Index3 window;       // voxels to look at on either side
+    int thick_axis;      // across which shape is interpolated, or -1
+    double thin_across;  // what a voxel's side across slices counts in thin parts
 
     // Whether all voxels of the window have one owner: blocks of 27 equal
     // voxels two apart cover it.
@@ -44,9 +47,11 @@ struct Prober {
 
     // d^2 = sum over axes of (max(0, |u - c| - 1/2) * plane spacing)^2, u the
     // sample and c a voxel's centre in index coordinates.
-    [[nodiscard]] Nearness probe(const Vec3& u, const Index3& v, bool inside) const {
+    [[nodiscard]] Nearness probe(const Vec3& u, const Index3& v, bool inside, bool thin) const {
         double nearest = std::numeric_limits<double>::infinity(), boxes = nearest;
         const auto gap = [&](int a, int c) { return std::max(0.0, std::abs(u[a] - c) - 0.5); };
+        Vec3 counts = Vec3::Ones();
+        if (thin && thick_axis >= 0) counts[thick_axis] = thin_across;
         for (int k = v[2] - window[2]; k <= v[2] + window[2]; ++k) {
             const double gz = gap(2, k), dz = gz * plane_spacing[2];
             for (int j = v[1] - window[1]; j <= v[1] + window[1]; ++j) {
@@ -55,7 +60,8 @@ struct Prober {
                     if ((map.owner_at(i, j, k) == owner) == inside) continue;
                     const double gx = gap(0, i), dx = gx * plane_spacing[0];
                     nearest = std::min(nearest, dx * dx + dy * dy + dz * dz);
-                    boxes = std::min(boxes, std::max({gx, gy, gz}));
+                    boxes =
+                        std::min(boxes, std::max({gx * counts[0], gy * counts[1], gz * counts[2]}));
                 }
             }
         }
@@ -77,12 +83,12 @@ void voxel_box(const RegionMap& map, RegionMap::Owner owner, Index3& low, Index3
 
 // Marks the blocks with samples within `reach` mm of a wall of the region.
 void mark_blocks(const RegionMap& map, RegionMap::Owner owner, const SharedLattice& lattice,
-                 double reach, RegionBand& region) {
+                 const Vec3& reach, RegionBand& region) {
     Index3 low, high;
     voxel_box(map, owner, low, high);
     const Eigen::Affine3d to_local = lattice.local_to_index.inverse();
     // Half the extent of a voxel in local coordinates, and the reach.
-    const Vec3 half = 0.5 * to_local.linear().cwiseAbs().rowwise().sum() + Vec3::Constant(reach);
+    const Vec3 half = 0.5 * to_local.linear().cwiseAbs().rowwise().sum() + reach;
     const double block = kSide * lattice.spacing;
     const std::array<std::array<int, 3>, 6> sides{
         {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
@@ -124,7 +130,7 @@ void number_blocks(Band& band) {
 // The table of blocks around the region's voxels: its walls, the band, two
 // coarse cells and a block beyond.
 void lay_table(const RegionMap& map, RegionMap::Owner owner, const SharedLattice& lattice,
-               double reach, RegionBand& region) {
+               const Vec3& reach, RegionBand& region) {
     Index3 low, high;
     voxel_box(map, owner, low, high);
     const Eigen::Affine3d to_local = lattice.local_to_index.inverse();
@@ -134,10 +140,10 @@ void lay_table(const RegionMap& map, RegionMap::Owner owner, const SharedLattice
                                     corner & 2 ? high[1] + 0.5 : low[1] - 0.5,
                                     corner & 4 ? high[2] + 0.5 : low[2] - 0.5));
     const double block = kSide * lattice.spacing;
-    const double margin = reach + 1.25 * block;
+    const Vec3 margin = reach + Vec3::Constant(1.25 * block);
     for (int a = 0; a < 3; ++a) {
-        region.first[a] = static_cast<int>(std::floor((box.min[a] - margin) / block));
-        const int last = static_cast<int>(std::floor((box.max[a] + margin) / block));
+        region.first[a] = static_cast<int>(std::floor((box.min[a] - margin[a]) / block));
+        const int last = static_cast<int>(std::floor((box.max[a] + margin[a]) / block));
         region.band.blocks[a] = last - region.first[a] + 1;
         region.band.origin[a] = region.first[a] * block;
     }
@@ -160,7 +166,9 @@ std::int8_t lock_of(double boxes, bool inside, bool thin, const Allowance& allow
     return static_cast<std::int8_t>(inside ? -lock : lock);
 }
 
-void fill_block(const Prober& prober, const VoxelScene& scene, std::size_t b, RegionBand& region) {
+// `shape`, where there is one, says where the interface lies instead of the walls.
+void fill_block(const Prober& prober, const VoxelScene& scene, const SliceShape* shape,
+                std::size_t b, RegionBand& region) {
     Band& band = region.band;
     const SharedLattice& lattice = scene.lattice;
     const Index3 p = band.position[b];
@@ -182,13 +190,18 @@ void fill_block(const Prober& prober, const VoxelScene& scene, std::size_t b, Re
         const Index3 v{static_cast<int>(std::lround(u[0])), static_cast<int>(std::lround(u[1])),
                        static_cast<int>(std::lround(u[2]))};
         const bool inside = prober.map.owner_at(v[0], v[1], v[2]) == prober.owner;
-        Nearness near;
-        if (!prober.uniform(v)) near = prober.probe(u, v, inside);
-        const float d = std::min(static_cast<float>(near.distance), band.width);
-        values[at] = inside ? -d : d;
         const bool thin = prober.map.holds(v[0], v[1], v[2]) &&
                           prober.map.flags[prober.map.offset(v[0], v[1], v[2])] & RegionMap::kThin;
+        const bool sure = prober.uniform(v);
+        Nearness near;
+        if (!sure) near = prober.probe(u, v, inside, thin);
+        const float d = std::min(static_cast<float>(near.distance), band.width);
+        values[at] = inside ? -d : d;
         locks[at] = lock_of(near.boxes, inside, thin, scene.allowance, lattice, region.lock_unit);
+        if (!shape || sure) continue;
+        const auto shaped = static_cast<float>(shape->value(u));
+        values[at] = locked(std::clamp(shaped, -band.width, band.width), locks[at],
+                            static_cast<float>(region.lock_unit));
     }
 }
 
@@ -222,9 +235,10 @@ void drop_empty_blocks(RegionBand& region) {
     region.locks.shrink_to_fit();
 }
 
-}  // namespace
-
-RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner) {
+// Blocks around the walls and as far as shapes may stray from them, with
+// samples from the walls or the shape, and locks.
+RegionBand lay_region(const VoxelScene& scene, RegionMap::Owner owner, int thick_axis,
+                      const SliceShape* shape) {
     const RegionMap& map = scene.map;
     const SharedLattice& lattice = scene.lattice;
     RegionBand region;
@@ -234,22 +248,117 @@ RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner) {
     // Locks reach one sample deep; what lies deeper is not reached by a flow.
     region.lock_unit = lattice.spacing / kLargestLock;
     band.beyond = owner == 0 ? Band::kInside : Band::kOutside;
-    lay_table(map, owner, lattice, band.width, region);
-    mark_blocks(map, owner, lattice, band.width, region);
+    Vec3 reach = Vec3::Constant(band.width);
+    if (thick_axis >= 0)
+        reach += 0.5 * lattice.local_to_index.inverse().linear().col(thick_axis).cwiseAbs();
+    lay_table(map, owner, lattice, reach, region);
+    mark_blocks(map, owner, lattice, reach, region);
     number_blocks(band);
     band.values.resize(band.position.size() * Band::kSize);
     region.locks.resize(band.values.size());
-    Prober prober{map, owner, lattice.plane_spacing, {}};
+    Prober prober{map, owner, lattice.plane_spacing, {}, thick_axis, 1};
+    // Across thick slices a thin part is held in the middles of its voxels only.
+    if (scene.allowance.voxels > 0)
+        prober.thin_across =
+            std::min(1.0, scene.allowance.thin_voxels / std::min(0.5, scene.allowance.voxels));
     for (int a = 0; a < 3; ++a)
         prober.window[a] =
             static_cast<int>(std::ceil(lattice.spacing / lattice.plane_spacing[a] - 1e-6));
     parallel_for(0, band.position.size(), 32, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b) fill_block(prober, scene, b, region);
+        for (std::size_t b = first; b < last; ++b) fill_block(prober, scene, shape, b, region);
     });
-    mark_unstored_blocks(band);
-    redistance(band, Seeds::keep_cells, 0);
-    drop_empty_blocks(region);
     return region;
+}
+
+void finish_region(RegionBand& region) {
+    mark_unstored_blocks(region.band);
+    redistance(region.band, Seeds::keep_cells, 0);
+    drop_empty_blocks(region);
+}
+
+// The two smallest values among the regions at each sample of a shared block.
+struct Smallest {
+    std::array<float, Band::kSize> first, second;
+};
+
+void smallest_of(const std::vector<RegionBand>& regions, const Index3& block, Smallest& out) {
+    out.first.fill(regions[1].band.width);
+    out.second.fill(regions[1].band.width);
+    for (std::size_t r = 1; r < regions.size(); ++r) {
+        const RegionBand& region = regions[r];
+        const std::int32_t number = region.band.find(
+            {block[0] - region.first[0], block[1] - region.first[1], block[2] - region.first[2]});
+        if (number == Band::kOutside) continue;
+        for (int at = 0; at < Band::kSize; ++at) {
+            const float v =
+                number < 0 ? region.band.empty_value(number) : region.band.block(number)[at];
+            out.second[at] = std::min(out.second[at], std::max(out.first[at], v));
+            out.first[at] = std::min(out.first[at], v);
+        }
+    }
+}
+
+// Whether the voxels of both slices around u have an owner.
+bool owned_in_both_slices(const RegionMap& map, int axis, Vec3 u) {
+    const double below = std::floor(u[axis]);
+    for (const double slice : {below, below + 1}) {
+        u[axis] = slice;
+        if (map.owner_at(static_cast<int>(std::lround(u[0])), static_cast<int>(std::lround(u[1])),
+                         static_cast<int>(std::lround(u[2]))) == 0)
+            return false;
+    }
+    return true;
+}
+
+void fill_background(const VoxelScene& scene, const std::vector<RegionBand>& regions, std::size_t b,
+                     RegionBand& background) {
+    Band& band = background.band;
+    const Index3 p = band.position[b];
+    const Index3 block{p[0] + background.first[0], p[1] + background.first[1],
+                       p[2] + background.first[2]};
+    Smallest smallest;
+    smallest_of(regions, block, smallest);
+    float* values = band.block(static_cast<std::int32_t>(b));
+    const std::int8_t* locks = background.locks.data() + b * Band::kSize;
+    for (int at = 0; at < Band::kSize; ++at) {
+        float v = -smallest.first[at];
+        if (v < 0 && smallest.second[at] < band.width) {
+            const Vec3 sample(block[0] * kSide + at % kSide, block[1] * kSide + at / kSide % kSide,
+                              block[2] * kSide + at / (kSide * kSide));
+            const Vec3 u = scene.lattice.local_to_index * (scene.lattice.spacing * sample);
+            if (owned_in_both_slices(scene.map, scene.lattice.thick_axis, u))
+                v = smallest.second[at];
+        }
+        values[at] = locked(v, locks[at], static_cast<float>(background.lock_unit));
+    }
+}
+
+}  // namespace
+
+RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner) {
+    RegionBand region = lay_region(scene, owner, -1, nullptr);
+    finish_region(region);
+    return region;
+}
+
+RegionBand slice_band(const VoxelScene& scene, RegionMap::Owner owner) {
+    const int axis = scene.lattice.thick_axis;
+    RegionBand region;
+    {
+        const SliceShape shape = slice_shape(scene.map, owner, axis, scene.lattice.plane_spacing);
+        region = lay_region(scene, owner, axis, &shape);
+    }
+    finish_region(region);
+    return region;
+}
+
+RegionBand background_band(const VoxelScene& scene, const std::vector<RegionBand>& regions) {
+    RegionBand background = lay_region(scene, 0, scene.lattice.thick_axis, nullptr);
+    parallel_for(0, background.band.position.size(), 32, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) fill_background(scene, regions, b, background);
+    });
+    finish_region(background);
+    return background;
 }
 
 }  // namespace myotet::levelset

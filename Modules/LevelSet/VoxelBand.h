@@ -41,6 +41,16 @@ struct VoxelScene {
 /// other kind is that to a box, so that no marching is needed.
 [[nodiscard]] RegionBand voxel_band(const VoxelScene& scene, RegionMap::Owner owner);
 
+/// The same for a region (not the background) of a scan in thick slices, with
+/// the interface where slice_shape has it. Across the slices a lock of a thin
+/// part holds only in its voxels' middles.
+[[nodiscard]] RegionBand slice_band(const VoxelScene& scene, RegionMap::Owner owner);
+
+/// The background of a scan in thick slices: what the regions leave. Where two
+/// of them draw apart between slices whose voxels both have an owner, it stays out.
+[[nodiscard]] RegionBand background_band(const VoxelScene& scene,
+                                         const std::vector<RegionBand>& regions);
+
 /// phi as its lock allows it.
 [[nodiscard]] inline float locked(float phi, std::int8_t lock, float unit) {
     if (lock < 0) return std::min(phi, static_cast<float>(lock) * unit);
