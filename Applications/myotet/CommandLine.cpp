@@ -59,6 +59,11 @@ void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {
                     "centre changes sides; none: the voxels' staircase (default: curvature)")
         ->transform(CLI::CheckedTransformer(kinds))
         ->type_name("KIND");
+    command
+        .add_option("--repair", choices.repair,
+                    "recipe (YAML) of steps that join, cut, grow or fill tissues before they "
+                    "are used")
+        ->type_name("RECIPE");
 }
 
 }  // namespace myotet::app

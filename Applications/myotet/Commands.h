@@ -13,7 +13,6 @@ namespace myotet::app {
 /// runs and leaves its exit code in `code`.
 void add_inspect(CLI::App& program, ExitCode& code);
 void add_levelset(CLI::App& program, ExitCode& code);
-void add_inspect(CLI::App& program, ExitCode& code);
 void add_mesh(CLI::App& program, ExitCode& code);
 void add_phantom(CLI::App& program, ExitCode& code);
 void add_quality(CLI::App& program, ExitCode& code);

@@ -62,6 +62,18 @@ Json options_json(const RunFacts& report) {
     return options;
 }
 
+Json repair_json(const std::vector<repair::StepReport>& steps) {
+    Json list = Json::array();
+    for (const repair::StepReport& s : steps)
+        list.push_back({{"step", s.number},
+                        {"what", s.what},
+                        {"tissue", s.tissue},
+                        {"added_mm3", s.added},
+                        {"removed_mm3", s.removed},
+                        {"note", s.note}});
+    return list;
+}
+
 Json run_json(const RunFacts& run) {
     return {{"program", "myotet"},
             {"version", MYOTET_VERSION},
@@ -71,6 +83,7 @@ Json run_json(const RunFacts& run) {
             {"frame", "LPS"},
             {"units", "mm"},
             {"options", options_json(run)},
+            {"repair", repair_json(run.repair)},
             {"threads", run.threads},
             {"peak_memory_bytes", run.peak_memory},
             {"processor_seconds", run.processor_seconds},

@@ -25,9 +25,11 @@ RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& 
     facts.options_text = {
         {"names_from", scan.names_from.string()},
         {"smoothing", surface ? "" : name_of(choices.smoothing)},
+        {"repair", choices.repair.string()},
         {"input_unit", options.input_unit.empty() && surface ? "mm" : options.input_unit}};
     facts.options_number = {{"smooth_mm", sets.sets.smooth},
                             {"level_set_spacing_mm", sets.sets.spacing}};
+    facts.repair = sets.repair;
     facts.threads = thread_count();
     facts.warnings = scan.warnings;
     return facts;

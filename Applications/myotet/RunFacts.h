@@ -16,6 +16,7 @@ struct RunFacts {
     std::vector<std::pair<std::string, std::string>> options_text;  ///< as resolved
     std::vector<std::pair<std::string, double>> options_number;
     std::vector<std::int32_t> labels;
+    std::vector<repair::StepReport> repair;
     int threads = 0;
     double peak_memory = 0;  ///< bytes
     double processor_seconds = 0;

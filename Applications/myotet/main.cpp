@@ -21,7 +21,6 @@ int main(int argc, char** argv) {
     try {
         add_inspect(program, code);
         add_levelset(program, code);
-        add_inspect(program, code);
         add_mesh(program, code);
         add_phantom(program, code);
         add_quality(program, code);
