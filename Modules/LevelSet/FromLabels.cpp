@@ -92,17 +92,24 @@ WantedVolumes wanted_volumes(const VoxelScene& scene, const LabelGrid& grid,
     return wanted;
 }
 
-Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand& work) {
+LevelSet finish_band(RegionBand& work, const Seams& seams) {
+    Band band = refit(work.band, static_cast<float>(kResultWidth * work.band.spacing));
+    work = {};
+    redistance(band, Seeds::keep_cells, 2);
+    LevelSet phi = assemble(band);
+    attach_seams(phi, seams);
+    return phi;
+}
+
+Region finish_region(const VoxelRegion& voxels, double voxel_volume, RegionBand& work,
+                     const Seams& seams) {
     Region region;
     region.label = voxels.label;
     region.component = voxels.component;
     region.voxels = voxels.voxels;
     region.volume_labels = static_cast<double>(voxels.voxels) * voxel_volume;
     region.smoothed_less = work.held_back;
-    Band band = refit(work.band, static_cast<float>(kResultWidth * work.band.spacing));
-    work = {};
-    redistance(band, Seeds::keep_cells, 2);
-    region.phi = assemble(band);
+    region.phi = finish_band(work, seams);
     region.volume_level_set = enclosed_volume(region.phi);
     region.inscribed_radius = inscribed_radius(region.phi);
     return region;
@@ -166,7 +173,8 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
                 [&](std::size_t r) { smooth_region(grid, progress, work[r]); });
 
     progress.report("partition", 0);
-    make_partition(work, map, grid.lattice, walls, wanted_volumes(scene, grid, work), progress);
+    const PartitionSummary partition =
+        make_partition(work, map, grid.lattice, walls, wanted_volumes(scene, grid, work), progress);
     progress.report("partition", 1);
 
     LabelLevelSets out;
@@ -174,10 +182,12 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     out.spacing = grid.lattice.spacing;
     out.smooth = grid.smooth;
     out.regions.resize(map.regions.size());
+    if (options.background) out.background = finish_band(work.front(), partition.seams.front());
     work.front() = {};
     std::vector<RegionChanges> changes(map.regions.size());
     each_region(map.regions.size(), "level sets", progress, [&](std::size_t r) {
-        out.regions[r] = finish_region(map.regions[r], volume.voxel_volume(), work[r + 1]);
+        out.regions[r] = finish_region(map.regions[r], volume.voxel_volume(), work[r + 1],
+                                       partition.seams[r + 1]);
         changes[r] = measure_changes(map, static_cast<RegionMap::Owner>(r + 1), grid.lattice,
                                      out.regions[r].phi);
     });

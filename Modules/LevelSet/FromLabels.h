@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ struct LabelOptions {
     /// side it is a bound, shorter across a voxel's shorter sides in proportion;
     /// beyond, it sets the duration of the flow alone.
     double smooth = -1;
+    /// Whether the background is given too: one level set of what the regions leave.
+    bool background = false;
     /// Bytes the work may hold at its peak, the result included.
     double max_memory = 8e9;
     /// Throws InputError naming the field, its value and the rule.
@@ -74,6 +77,7 @@ struct LabelLevelSets {
     double smooth = 0;                       ///< as chosen, mm
     std::vector<Region> regions;             ///< by label value, then by component
     std::vector<SmoothingReport> smoothing;  ///< by label value
+    std::optional<LevelSet> background;      ///< where LabelOptions::background asks for it
 };
 
 /// Turns the components of `labels` (6-connected voxels) into signed distances

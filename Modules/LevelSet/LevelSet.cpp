@@ -16,33 +16,6 @@ struct Cell {
     double inverse_spacing;
 };
 
-Cell locate(const LevelSet& phi, const Vec3& point) {
-    const double per_spacing = 1 / phi.spacing;
-    const Vec3 g = (point - phi.origin) * per_spacing;
-    Index3 cell, brick;
-    for (int a = 0; a < 3; ++a) {
-        cell[a] = std::clamp(static_cast<int>(g[a]), 0, phi.bricks[a] * LevelSet::kBrickCells - 1);
-        brick[a] = cell[a] / LevelSet::kBrickCells;
-    }
-    const std::size_t slot =
-        (static_cast<std::size_t>(brick[2]) * phi.bricks[1] + brick[1]) * phi.bricks[0] + brick[0];
-    const std::int32_t number = phi.brick_of[slot];
-    if (number >= 0) {
-        constexpr int n = LevelSet::kBrickSamples, m = LevelSet::kBrickCells - 1;
-        const std::size_t at =
-            ((static_cast<std::size_t>(cell[2] & m)) * n + (cell[1] & m)) * n + (cell[0] & m);
-        return {phi.values.data() + static_cast<std::size_t>(number) * LevelSet::kBrickSize + at, n,
-                n * n, g - Vec3(cell[0], cell[1], cell[2]), per_spacing};
-    }
-    const Vec3 c = (point - phi.origin) / phi.coarse_spacing;
-    Index3 coarse;
-    for (int a = 0; a < 3; ++a)
-        coarse[a] = std::clamp(static_cast<int>(c[a]), 0, phi.coarse_size[a] - 2);
-    const std::ptrdiff_t dy = phi.coarse_size[0], dz = dy * phi.coarse_size[1];
-    return {phi.coarse_values.data() + coarse[2] * dz + coarse[1] * dy + coarse[0], dy, dz,
-            c - Vec3(coarse[0], coarse[1], coarse[2]), 1 / phi.coarse_spacing};
-}
-
 Sample interpolate(const Cell& cell) {
     const float* p = cell.corner;
     const double x = cell.t.x(), y = cell.t.y(), z = cell.t.z();
@@ -62,6 +35,53 @@ Sample interpolate(const Cell& cell) {
     return s;
 }
 
+// The largest of the pieces at t.
+Sample largest_piece(std::span<const std::array<float, 8>> pieces, const Vec3& t,
+                     double inverse_spacing) {
+    Sample largest;
+    largest.value = -std::numeric_limits<double>::infinity();
+    for (const auto& piece : pieces) {
+        const Sample s = interpolate({piece.data(), 2, 4, t, inverse_spacing});
+        if (s.value > largest.value) largest = s;
+    }
+    return largest;
+}
+
+Sample sample_coarse(const LevelSet& phi, const Vec3& point) {
+    const Vec3 c = (point - phi.origin) / phi.coarse_spacing;
+    Index3 coarse;
+    for (int a = 0; a < 3; ++a)
+        coarse[a] = std::clamp(static_cast<int>(c[a]), 0, phi.coarse_size[a] - 2);
+    const std::ptrdiff_t dy = phi.coarse_size[0], dz = dy * phi.coarse_size[1];
+    return interpolate({phi.coarse_values.data() + coarse[2] * dz + coarse[1] * dy + coarse[0], dy,
+                        dz, c - Vec3(coarse[0], coarse[1], coarse[2]), 1 / phi.coarse_spacing});
+}
+
+// At a point of the box.
+Sample sample_inside(const LevelSet& phi, const Vec3& point) {
+    const double per_spacing = 1 / phi.spacing;
+    const Vec3 g = (point - phi.origin) * per_spacing;
+    Index3 cell, brick;
+    for (int a = 0; a < 3; ++a) {
+        cell[a] = std::clamp(static_cast<int>(g[a]), 0, phi.bricks[a] * LevelSet::kBrickCells - 1);
+        brick[a] = cell[a] / LevelSet::kBrickCells;
+    }
+    const std::size_t slot =
+        (static_cast<std::size_t>(brick[2]) * phi.bricks[1] + brick[1]) * phi.bricks[0] + brick[0];
+    const std::int32_t number = phi.brick_of[slot];
+    if (number < 0) return sample_coarse(phi, point);
+    constexpr int n = LevelSet::kBrickSamples, m = LevelSet::kBrickCells - 1;
+    const Vec3 t = g - Vec3(cell[0], cell[1], cell[2]);
+    for (int& c : cell) c &= m;
+    if (number >= phi.first_seamed)
+        if (const auto pieces = phi.pieces_at(number, cell[0], cell[1], cell[2]); !pieces.empty())
+            return largest_piece(pieces, t, per_spacing);
+    const std::size_t at = (static_cast<std::size_t>(cell[2]) * n + cell[1]) * n + cell[0];
+    return interpolate(
+        {phi.values.data() + static_cast<std::size_t>(number) * LevelSet::kBrickSize + at, n, n * n,
+         t, per_spacing});
+}
+
 }  // namespace
 
 Box LevelSet::box() const {
@@ -73,7 +93,9 @@ Box LevelSet::box() const {
 
 std::size_t LevelSet::memory() const {
     return sizeof(float) * (values.capacity() + coarse_values.capacity()) +
-           sizeof(std::int32_t) * brick_of.capacity();
+           sizeof(std::int32_t) * brick_of.capacity() + sizeof(Seamed) * seamed.capacity() +
+           sizeof(std::uint32_t) * pieces_of.capacity() +
+           sizeof(std::array<float, 8>) * pieces.capacity();
 }
 
 Sample LevelSet::sample(const Vec3& point) const {
@@ -81,10 +103,10 @@ Sample LevelSet::sample(const Vec3& point) const {
     const double brick = spacing * kBrickCells;
     if (g.x() >= 0 && g.y() >= 0 && g.z() >= 0 && g.x() <= brick * bricks[0] &&
         g.y() <= brick * bricks[1] && g.z() <= brick * bricks[2])
-        return interpolate(locate(*this, point));
+        return sample_inside(*this, point);
     const Box b = box();
     const Vec3 inside = point.cwiseMax(b.min).cwiseMin(b.max);
-    Sample s = interpolate(locate(*this, inside));
+    Sample s = sample_inside(*this, inside);
     const Vec3 away = point - inside;
     const double distance = away.norm();
     if (distance > 0) {

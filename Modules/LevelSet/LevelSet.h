@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "Core/Geometry.h"
@@ -38,6 +42,30 @@ struct LevelSet {
     double coarse_spacing = 0;         ///< coarse sample distance, mm; same origin
     Index3 coarse_size{0, 0, 0};       ///< coarse samples along each axis; covers all bricks
     std::vector<float> coarse_values;  ///< i fastest, mm
+
+    /// Cells of a brick, one bit each, a word per plane k, bit 8 j + i.
+    struct Seamed {
+        std::array<std::uint64_t, kBrickCells> cells{};
+        std::array<std::uint32_t, kBrickCells> first{};  ///< of a plane, in pieces_of
+    };
+    /// Where a wall turns from one neighbour to the next within a cell, phi is the
+    /// largest of several trilinear functions, the cell's pieces; see Seams. At
+    /// samples they agree with `values`, but for cells that the surface does not cut.
+    std::int32_t first_seamed = std::numeric_limits<std::int32_t>::max();  ///< brick
+    std::vector<Seamed> seamed;                ///< of the bricks from first_seamed on
+    std::vector<std::uint32_t> pieces_of;      ///< per such cell its first piece, and an end
+    std::vector<std::array<float, 8>> pieces;  ///< at the cell's corners, i fastest, mm
+
+    /// The pieces of cell (i, j, k) of a stored brick; none for most.
+    [[nodiscard]] std::span<const std::array<float, 8>> pieces_at(std::int32_t brick, int i, int j,
+                                                                  int k) const {
+        if (brick < first_seamed) return {};
+        const Seamed& s = seamed[brick - first_seamed];
+        const std::uint64_t bit = std::uint64_t{1} << (8 * j + i);
+        if (!(s.cells[k] & bit)) return {};
+        const std::size_t cell = s.first[k] + std::popcount(s.cells[k] & (bit - 1));
+        return std::span(pieces).subspan(pieces_of[cell], pieces_of[cell + 1] - pieces_of[cell]);
+    }
 
     /// Trilinear interpolation; outside the stored box, the value at the nearest
     /// point of the box plus the distance to it (a bound on the true distance).

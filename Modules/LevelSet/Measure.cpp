@@ -5,15 +5,24 @@
 #include <cmath>
 
 #include "Core/Parallel.h"
+#include "LevelSet/Seams.h"
 
 namespace myotet::levelset {
 namespace {
 
 // Fraction of a tetrahedron where the linear function with these values at its
 // corners is negative.
-double negative_part(std::array<double, 4> v) {
-    std::sort(v.begin(), v.end());
-    const auto [a, b, c, d] = v;
+double negative_part(double a, double b, double c, double d) {
+    const auto order = [](double& low, double& high) {
+        const double smaller = std::min(low, high);
+        high = std::max(low, high);
+        low = smaller;
+    };
+    order(a, b);
+    order(c, d);
+    order(a, c);
+    order(b, d);
+    order(b, c);
     if (!(a < 0)) return 0;
     if (d < 0) return 1;
     if (!(b < 0)) return a * a * a / ((a - b) * (a - c) * (a - d));
@@ -35,7 +44,7 @@ double inside_fraction(const std::array<float, 8>& corner) {
     constexpr int paths[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
     double sum = 0;
     for (const auto& p : paths)
-        sum += negative_part({corner[0], corner[p[0]], corner[p[1]], corner[7]});
+        sum += negative_part(corner[0], corner[p[0]], corner[p[1]], corner[7]);
     return sum / 6;
 }
 
@@ -60,6 +69,11 @@ double enclosed_volume(const LevelSet& phi) {
                 for (int k = 0; k < cells; ++k)
                     for (int j = 0; j < cells; ++j)
                         for (int i = 0; i < cells; ++i) {
+                            if (const auto pieces = phi.pieces_at(number, i, j, k);
+                                !pieces.empty()) {
+                                sum += inside_fraction(pieces);
+                                continue;
+                            }
                             const float* p = v + (k * n + j) * n + i;
                             sum += inside_fraction({p[0], p[1], p[n], p[n + 1], p[n * n],
                                                     p[n * n + 1], p[n * n + n], p[n * n + n + 1]});

@@ -10,198 +10,198 @@
 #include "LevelSet/Flow.h"
 #include "LevelSet/Measure.h"
 #include "LevelSet/Offsets.h"
+#include "LevelSet/Places.h"
 
 namespace myotet::levelset {
 namespace {
 
-constexpr int kSide = Band::kSide;
-constexpr int kSamples = kSide + 1;
-using Patch = std::array<float, kSamples * kSamples * kSamples>;
 constexpr std::size_t kGrain = 16;
-
-// A shared block and the regions whose values count there.
-struct Place {
-    Index3 block;             // among the shared lattice's
-    std::size_t first, last;  // in Places::region
-};
-struct Places {
-    std::vector<Place> places;
-    std::vector<int> region;   // ascending within a place
-    std::vector<double> full;  // per region: volume of blocks wholly inside, mm^3
-};
-
-Index3 local(const RegionBand& r, const Index3& block) {
-    return {block[0] - r.first[0], block[1] - r.first[1], block[2] - r.first[2]};
-}
-
-struct Key {
-    Index3 block;  // k, j, i: sorts in memory order
-    int region;
-    auto operator<=>(const Key&) const = default;
-};
-
-// The region that owns the block's first sample: where it is stored nowhere
-// near, it fills the block and is missed otherwise.
-int owner_of(const RegionMap& map, const SharedLattice& lattice, const Index3& block) {
-    const Vec3 u =
-        lattice.local_to_index * (lattice.spacing * kSide * Vec3(block[0], block[1], block[2]));
-    return map.owner_at(static_cast<int>(std::lround(u[0])), static_cast<int>(std::lround(u[1])),
-                        static_cast<int>(std::lround(u[2])));
-}
-
-// A region counts in the blocks it stores, and in the lower neighbours of
-// these, whose cells reach one sample into them.
-Places find_places(const std::vector<RegionBand>& regions, const RegionMap& map,
-                   const SharedLattice& lattice) {
-    std::vector<Key> keys;
-    for (std::size_t r = 0; r < regions.size(); ++r)
-        for (const Index3& p : regions[r].band.position)
-            for (int n = 0; n < 8; ++n)
-                keys.push_back({{p[2] + regions[r].first[2] - (n >> 2),
-                                 p[1] + regions[r].first[1] - (n >> 1 & 1),
-                                 p[0] + regions[r].first[0] - (n & 1)},
-                                static_cast<int>(r)});
-    const auto tidy = [&] {
-        std::sort(keys.begin(), keys.end());
-        keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    };
-    tidy();
-    const std::size_t stored = keys.size();
-    for (std::size_t i = 0; i < stored; ++i)
-        if (i == 0 || keys[i].block != keys[i - 1].block)
-            for (int n = 0; n < 8; ++n) {
-                const Index3& b = keys[i].block;
-                keys.push_back(
-                    {b, owner_of(map, lattice,
-                                 {b[2] + (n & 1), b[1] + (n >> 1 & 1), b[0] + (n >> 2)})});
-            }
-    tidy();
-    Places out;
-    out.full.assign(regions.size(), 0);
-    std::vector<std::int64_t> inside(regions.size(), 0);
-    for (std::size_t r = 0; r < regions.size(); ++r)
-        for (const std::int32_t n : regions[r].band.block_of) inside[r] += n == Band::kInside;
-    for (const Key& key : keys) {
-        const Index3 block{key.block[2], key.block[1], key.block[0]};
-        if (out.places.empty() || out.places.back().block != block)
-            out.places.push_back({block, out.region.size(), out.region.size()});
-        out.region.push_back(key.region);
-        out.places.back().last = out.region.size();
-        const RegionBand& r = regions[key.region];
-        inside[key.region] -= r.band.find(local(r, block)) == Band::kInside;
-    }
-    for (std::size_t r = 0; r < regions.size(); ++r)
-        out.full[r] = static_cast<double>(inside[r]) * Band::kSize * std::pow(lattice.spacing, 3);
-    return out;
-}
-
-// Values of one region at a place, with offset and locks.
-void load(const RegionBand& region, const Index3& block, float offset, int high, float* out) {
-    const Index3 b = local(region, block);
-    gather(region.band, b, 0, high, out);
-    const int side = kSide + high, count = side * side * side;
-    const float width = region.band.width, unit = static_cast<float>(region.lock_unit);
-    std::array<std::int8_t, kSamples * kSamples * kSamples> locks;
-    gather(
-        region.band, region.locks.data(), b, 0, high, [](std::int32_t) { return std::int8_t{0}; },
-        locks.data());
-    for (int i = 0; i < count; ++i)
-        // Beyond the band nothing moves, or interfaces would appear at its edge.
-        if (std::abs(out[i]) < width) out[i] = locked(out[i] + offset, locks[i], unit);
-}
-
-struct Scratch {
-    std::vector<Patch> phi;
-    Patch shift;
-};
-
-// Loads all regions of a place and what is to be subtracted from them.
-void partition_place(const std::vector<RegionBand>& regions, const Places& places,
-                     const Place& place, std::span<const double> offset, int high, Scratch& work) {
-    const std::size_t count = place.last - place.first;
-    if (work.phi.size() < count) work.phi.resize(count);
-    const int side = kSide + high, samples = side * side * side;
-    Patch second;
-    const float wide = regions[0].band.width;
-    std::fill_n(work.shift.begin(), samples, wide);
-    std::fill_n(second.begin(), samples, wide);
-    for (std::size_t n = 0; n < count; ++n) {
-        const int r = places.region[place.first + n];
-        Patch& phi = work.phi[n];
-        load(regions[r], place.block, static_cast<float>(offset[r]), high, phi.data());
-        for (int i = 0; i < samples; ++i) {
-            const float v = phi[i];
-            second[i] = std::min(second[i], std::max(work.shift[i], v));
-            work.shift[i] = std::min(work.shift[i], v);
-        }
-    }
-    for (int i = 0; i < samples; ++i) work.shift[i] = 0.5f * (work.shift[i] + second[i]);
-}
+constexpr int kSide = Band::kSide;
 
 constexpr int kCells = 8;  // of volumes, a block
 using Part = std::array<float, kCells>;
 
-// Volume of the partitioned region in each cell of a place, mm^3.
-Part inside_cells(const Patch& phi, const Patch& shift, double sample_volume) {
+// The cell of volumes that a cell of samples belongs to.
+int part_of(int i, int j, int k) {
     constexpr int half = kSide / kVolumeStep;
     static_assert(half * half * half == kCells);
+    return (k / kVolumeStep * half + j / kVolumeStep) * half + i / kVolumeStep;
+}
+
+Seams::Corners corners_at(const Patch& phi, int i, int j, int k) {
+    const int at = (k * kPatchSide + j) * kPatchSide + i;
+    constexpr int y = kPatchSide, z = kPatchSide * kPatchSide;
+    return {phi[at],     phi[at + 1],     phi[at + y],     phi[at + y + 1],
+            phi[at + z], phi[at + z + 1], phi[at + z + y], phi[at + z + y + 1]};
+}
+
+void make_partitioned(const PlaceValues& values, std::size_t n, Patch& out) {
+    for (int i = 0; i < values.samples(); ++i)
+        out[i] = partitioned(values.phi[n][i], values.smallest[i], values.second[i]);
+}
+
+// Bit i of row 9 k + j: the sample is inside.
+using Signs = std::array<unsigned, kPatchSide * kPatchSide>;
+
+Signs signs_of(const Patch& phi) {
+    Signs signs;
+    for (int row = 0; row < kPatchSide * kPatchSide; ++row) {
+        signs[row] = 0;
+        for (int i = 0; i < kPatchSide; ++i)
+            signs[row] |= static_cast<unsigned>(phi[row * kPatchSide + i] < 0) << i;
+    }
+    return signs;
+}
+
+// Volume of a partitioned region in each part of a place, mm^3, seams left out.
+Part inside_parts(const Patch& phi, double sample_volume) {
+    const Signs signs = signs_of(phi);
     std::array<double, kCells> sum{};
     for (int k = 0; k < kSide; ++k)
-        for (int j = 0; j < kSide; ++j)
-            for (int i = 0; i < kSide; ++i) {
-                std::array<float, 8> corner;
-                for (int c = 0; c < 8; ++c) {
-                    const int at =
-                        ((k + (c >> 2)) * kSamples + j + (c >> 1 & 1)) * kSamples + i + (c & 1);
-                    corner[c] = phi[at] - shift[at];
-                }
-                sum[(k / kVolumeStep * half + j / kVolumeStep) * half + i / kVolumeStep] +=
-                    inside_fraction(corner);
+        for (int j = 0; j < kSide; ++j) {
+            const unsigned* row = signs.data() + k * kPatchSide + j;
+            const unsigned any = row[0] | row[1] | row[kPatchSide] | row[kPatchSide + 1];
+            const unsigned all = row[0] & row[1] & row[kPatchSide] & row[kPatchSide + 1];
+            for (int i = 0; any != 0 && i < kSide; ++i) {
+                if (!(any >> i & 3u)) continue;
+                sum[part_of(i, j, k)] +=
+                    (all >> i & 3u) == 3u ? 1.0 : inside_fraction(corners_at(phi, i, j, k));
             }
+        }
     Part part;
     for (int c = 0; c < kCells; ++c) part[c] = static_cast<float>(sum[c] * sample_volume);
     return part;
 }
 
-// The volume of every region, mm^3. `part` keeps what each place holds of each
-// region; only places with a region that `moved` are measured again.
+// What the seams of a place add to that, for each of its regions.
+void add_seams(const PlaceValues& values, double spacing, std::span<Part> extra) {
+    std::fill(extra.begin(), extra.end(), Part{});
+    if (values.count < 3) return;
+    const double sample_volume = std::pow(spacing, 3);
+    PlaceSeams seams;
+    find_seams(values, spacing, seams);
+    Patch phi;
+    for (std::size_t n = 0; n < values.count && !seams.cells.empty(); ++n) {
+        make_partitioned(values, n, phi);
+        for (std::size_t s = 0; s < seams.cells.size(); ++s) {
+            if (seams.cells[s].region != static_cast<int>(n)) continue;
+            const int cell = seams.cells[s].cell;
+            const int i = cell % kSide, j = cell / kSide % kSide, k = cell / (kSide * kSide);
+            extra[n][part_of(i, j, k)] +=
+                static_cast<float>(sample_volume * (inside_fraction(seams.of(s)) -
+                                                    inside_fraction(corners_at(phi, i, j, k))));
+        }
+    }
+}
+
+// The measured volumes, those of the seams apart: these take longer to find,
+// and hardly change while the regions do, but for specks that consist of them.
+struct Volumes {
+    std::vector<Part> part, extra;  // as Places::region
+    std::vector<char> speck;        // per region
+
+    [[nodiscard]] float at(std::size_t n, int c) const { return part[n][c] + extra[n][c]; }
+};
+
+std::vector<char> find_specks(std::span<const double> total, double spacing) {
+    constexpr double kSamples = 100;
+    std::vector<char> speck;
+    for (const double t : total) speck.push_back(t > 0 && t < kSamples * std::pow(spacing, 3));
+    return speck;
+}
+
+void measure_seams(const std::vector<RegionBand>& regions, const Places& places,
+                   std::span<const double> offset, Volumes& volumes) {
+    parallel_for(0, places.places.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        PlaceValues values;
+        for (std::size_t p = first; p < last; ++p) {
+            const Place& place = places.places[p];
+            if (place.last - place.first < 3) continue;
+            load_place(regions, places, place, offset, 1, values);
+            add_seams(values, regions[0].band.spacing,
+                      std::span(volumes.extra).subspan(place.first, values.count));
+        }
+    });
+}
+
+// The volume of every region, mm^3; only places with a region that `moved` are
+// measured again.
 std::vector<double> measure(const std::vector<RegionBand>& regions, const Places& places,
                             std::span<const double> offset, const std::vector<char>& moved,
-                            std::vector<Part>& part) {
-    const double cell = std::pow(regions[0].band.spacing, 3);
+                            Volumes& volumes) {
+    const double sample_volume = std::pow(regions[0].band.spacing, 3);
     parallel_for(0, places.places.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        Scratch work;
+        PlaceValues values;
+        Patch phi;
         for (std::size_t p = first; p < last; ++p) {
             const Place& place = places.places[p];
             const auto* here = places.region.data();
             if (std::none_of(here + place.first, here + place.last,
                              [&](int r) { return moved[r] != 0; }))
                 continue;
-            partition_place(regions, places, place, offset, 1, work);
-            for (std::size_t n = 0; n < place.last - place.first; ++n)
-                part[place.first + n] = inside_cells(work.phi[n], work.shift, cell);
+            load_place(regions, places, place, offset, 1, values);
+            for (std::size_t n = 0; n < values.count; ++n) {
+                make_partitioned(values, n, phi);
+                volumes.part[place.first + n] = inside_parts(phi, sample_volume);
+            }
+            if (std::any_of(here + place.first, here + place.last,
+                            [&](int r) { return volumes.speck[r] != 0; }))
+                add_seams(values, regions[0].band.spacing,
+                          std::span(volumes.extra).subspan(place.first, values.count));
         }
     });
     std::vector<double> volume = places.full;
-    for (std::size_t i = 0; i < part.size(); ++i)
-        for (const float v : part[i]) volume[places.region[i]] += v;
+    for (std::size_t i = 0; i < places.region.size(); ++i)
+        for (int c = 0; c < kCells; ++c) volume[places.region[i]] += volumes.at(i, c);
     return volume;
+}
+
+// The seams of every region, found before their samples change.
+std::vector<Seams> all_seams(const std::vector<RegionBand>& regions, const Places& places,
+                             std::span<const double> offset) {
+    std::vector<PlaceSeams> found(places.places.size());
+    parallel_for(0, found.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        PlaceValues values;
+        for (std::size_t p = first; p < last; ++p) {
+            const Place& place = places.places[p];
+            if (place.last - place.first < 3) continue;
+            load_place(regions, places, place, offset, 1, values);
+            find_seams(values, regions[0].band.spacing, found[p]);
+        }
+    });
+    std::vector<Seams> seams(regions.size());
+    for (std::size_t p = 0; p < found.size(); ++p) {
+        const Place& place = places.places[p];
+        for (std::size_t n = 0; n < found[p].cells.size(); ++n) {
+            const PlaceSeams::Cell& cell = found[p].cells[n];
+            const int r = places.region[place.first + cell.region];
+            const Index3 block = local_block(regions[r], place.block);
+            const auto pieces = found[p].of(n);
+            seams[r].cell.push_back({block[0] * kSide + cell.cell % kSide,
+                                     block[1] * kSide + cell.cell / kSide % kSide,
+                                     block[2] * kSide + cell.cell / (kSide * kSide)});
+            seams[r].first.push_back(static_cast<std::uint32_t>(seams[r].piece.size()));
+            seams[r].piece.insert(seams[r].piece.end(), pieces.begin(), pieces.end());
+        }
+    }
+    return seams;
 }
 
 void apply(std::vector<RegionBand>& regions, const Places& places, std::span<const double> offset) {
     parallel_for(0, places.places.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        Scratch work;
+        PlaceValues values;
         for (std::size_t p = first; p < last; ++p) {
             const Place& place = places.places[p];
-            partition_place(regions, places, place, offset, 0, work);
-            for (std::size_t n = 0; n < place.last - place.first; ++n) {
+            load_place(regions, places, place, offset, 0, values);
+            for (std::size_t n = 0; n < values.count; ++n) {
                 RegionBand& r = regions[places.region[place.first + n]];
-                const std::int32_t number = r.band.find(local(r, place.block));
+                const std::int32_t number = r.band.find(local_block(r, place.block));
                 if (number < 0) continue;
                 float* out = r.band.block(number);
                 for (int i = 0; i < Band::kSize; ++i)
-                    out[i] =
-                        std::clamp(work.phi[n][i] - work.shift[i], -r.band.width, r.band.width);
+                    out[i] = std::clamp(
+                        partitioned(values.phi[n][i], values.smallest[i], values.second[i]),
+                        -r.band.width, r.band.width);
             }
         }
     });
@@ -232,16 +232,16 @@ namespace {
 
 // Each region gains what it misses near each place, were the partition made now.
 void restore_cells(std::vector<RegionBand>& regions, const Places& places,
-                   const WantedVolumes& wanted, std::vector<Part>& part) {
+                   const WantedVolumes& wanted, Volumes& volumes) {
     const std::vector<double> none(regions.size(), 0.0);
-    measure(regions, places, none, std::vector<char>(regions.size(), 1), part);
+    measure(regions, places, none, std::vector<char>(regions.size(), 1), volumes);
     std::vector<CellVolumes> missing = wanted.cells;
     for (const Place& place : places.places)
         for (std::size_t n = place.first; n < place.last; ++n) {
             const int r = places.region[n];
-            const std::int32_t block = regions[r].band.find(local(regions[r], place.block));
+            const std::int32_t block = regions[r].band.find(local_block(regions[r], place.block));
             if (block < 0) continue;
-            for (int c = 0; c < kCells; ++c) missing[r][block][c] -= part[n][c];
+            for (int c = 0; c < kCells; ++c) missing[r][block][c] -= volumes.at(n, c);
         }
     parallel_for(0, regions.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t r = first; r < last; ++r) {
@@ -251,52 +251,73 @@ void restore_cells(std::vector<RegionBand>& regions, const Places& places,
     });
 }
 
-}  // namespace
-
-PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
-                                const SharedLattice& lattice, std::span<const SharedWall> walls,
-                                const WantedVolumes& wanted, const ProgressSink& progress) {
-    constexpr int kRestoring = 3, kMostIterations = 12;
+// Finds the offsets that give each region its total, the seams' volumes being
+// held; returns how often it moved any. `moved` says what to measure first.
+int match_totals(const std::vector<RegionBand>& regions, const Places& places,
+                 std::span<const SharedWall> walls, std::span<const double> total,
+                 std::vector<char> moved, Volumes& volumes, PartitionSummary& summary) {
+    constexpr int kMostIterations = 12;
     constexpr double kGoodEnough = 1e-3;
     const std::size_t count = regions.size();
-    const Places places = find_places(regions, map, lattice);
-    std::vector<Part> part(places.region.size());
-    for (int round = 0; round < (wanted.cells.empty() ? 0 : kRestoring); ++round) {
-        progress.check();
-        restore_cells(regions, places, wanted, part);
-    }
-    PartitionSummary summary;
-    summary.offset.assign(count, 0.0);
+    const double spacing = regions[0].band.spacing;
     std::vector<double> before(count), asked(count, 0.0);
     std::vector<double> answer(count, 1.0);  // volume gained for volume asked
-    std::vector<char> moved(count, 1);
-    while (true) {
-        progress.check();
-        const auto now = measure(regions, places, summary.offset, moved, part);
+    for (int iterations = 0;; ++iterations) {
+        const auto now = measure(regions, places, summary.offset, moved, volumes);
         std::vector<double> missing(count, 0.0);
         summary.largest_error = 0;
         for (std::size_t r = 1; r < count; ++r) {
-            const double total = wanted.total[r], error = std::abs(total - now[r]) / total;
+            const double error = std::abs(total[r] - now[r]) / total[r];
             summary.largest_error = std::max(summary.largest_error, error);
             // Small regions answer less than their walls' area promises.
-            if (summary.iterations > 0 && std::abs(asked[r]) > 1e-3 * total)
+            if (iterations > 0 && std::abs(asked[r]) > 1e-3 * total[r])
                 answer[r] = std::clamp((now[r] - before[r]) / asked[r], 0.25, 1.5);
-            if (error > kGoodEnough) missing[r] = (total - now[r]) / answer[r];
+            if (error > kGoodEnough) missing[r] = (total[r] - now[r]) / answer[r];
         }
-        if (summary.largest_error < kGoodEnough || summary.iterations == kMostIterations) break;
-        ++summary.iterations;
+        if (summary.largest_error < kGoodEnough || iterations == kMostIterations) return iterations;
         const auto change = offsets_for(missing, walls);
         for (std::size_t r = 1; r < count; ++r) {
             const double last = summary.offset[r];
             // Interfaces must stay well inside the bands.
-            summary.offset[r] = std::clamp(last + change[r], -lattice.spacing, lattice.spacing);
-            moved[r] = std::abs(summary.offset[r] - last) > 1e-4 * lattice.spacing;
+            summary.offset[r] = std::clamp(last + change[r], -spacing, spacing);
+            moved[r] = std::abs(summary.offset[r] - last) > 1e-4 * spacing;
             if (!moved[r]) summary.offset[r] = last;
         }
         moved[0] = 0;
         before = now;
         asked = missing;
     }
+}
+
+}  // namespace
+
+PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
+                                const SharedLattice& lattice, std::span<const SharedWall> walls,
+                                const WantedVolumes& wanted, const ProgressSink& progress) {
+    constexpr int kRestoring = 3, kMostPasses = 4;
+    const Places places = find_places(regions, map, lattice);
+    PartitionSummary summary;
+    summary.offset.assign(regions.size(), 0.0);
+    const std::size_t count = places.region.size();
+    Volumes volumes{std::vector<Part>(count), std::vector<Part>(count),
+                    find_specks(wanted.total, lattice.spacing)};
+    measure_seams(regions, places, summary.offset, volumes);
+    for (int round = 0; round < (wanted.cells.empty() ? 0 : kRestoring); ++round) {
+        progress.check();
+        restore_cells(regions, places, wanted, volumes);
+    }
+    // Until the totals hold with the seams as they now are.
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+        progress.check();
+        if (pass > 0 || !wanted.cells.empty())
+            measure_seams(regions, places, summary.offset, volumes);
+        const int moves =
+            match_totals(regions, places, walls, wanted.total,
+                         std::vector<char>(regions.size(), pass == 0), volumes, summary);
+        summary.iterations += moves;
+        if (pass > 0 && moves == 0) break;
+    }
+    summary.seams = all_seams(regions, places, summary.offset);
     apply(regions, places, summary.offset);
     return summary;
 }

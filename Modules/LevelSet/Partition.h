@@ -6,6 +6,7 @@
 
 #include "Core/Progress.h"
 #include "LevelSet/GiveBack.h"
+#include "LevelSet/Seams.h"
 #include "LevelSet/VoxelBand.h"
 
 namespace myotet::levelset {
@@ -32,12 +33,14 @@ struct PartitionSummary {
     int iterations = 0;
     double largest_error = 0;    ///< relative error left in a total, over all regions
     std::vector<double> offset;  ///< per region, added to its phi in the end, mm
+    std::vector<Seams> seams;    ///< per region
 };
 
-/// Makes the regions (number 0 the background) a partition: where a <= b are
-/// the two smallest values at a sample, (a + b) / 2 is subtracted from all, so
+/// Makes the regions (number 0 the background) a partition: each one's value
+/// becomes half of what lies between it and the smallest of the others, so
 /// that touching regions share one wall and nothing is claimed twice or left
-/// over (Losasso, Shinar, Selle, Fedkiw 2006). Before that each region's
+/// over (after Losasso, Shinar, Selle, Fedkiw 2006); seams make that hold
+/// within cells too. Before that each region's
 /// volume is restored, as the partition will measure it: place by place in a
 /// few rounds, then in total by constant offsets found together for all.
 /// Locks hold throughout. Throws Interrupted.
