@@ -12,6 +12,9 @@
 namespace myotet::segmentation {
 namespace {
 
+// Tissues overlap two or three deep; a file that asks for more than this lies.
+constexpr std::size_t kMostLayers = 256;
+
 bool is_free(const std::vector<std::int32_t>& layer, const MaskRun& run) {
     for (std::size_t n = 0; n < run.mask.size(); ++n)
         if (run.mask[n] != 0 && layer[run.offset + n] != 0) return false;
@@ -30,6 +33,7 @@ std::vector<std::int32_t> LayerPacker::empty_layer() const {
                              std::to_string(size_[2]) + " voxels, " + why +
                              "; crop the segmentation or leave labels out");
     };
+    if (layers_.size() == kMostLayers) throw too_many("more than overlap anywhere");
     if (!(voxels * layers <= most_voxels_)) throw too_many("more than a file of its size can tell");
     try {
         return std::vector<std::int32_t>(static_cast<std::size_t>(voxels), 0);

@@ -10,6 +10,7 @@
 
 #include "Core/AtomicFile.h"
 #include "Core/Errors.h"
+#include "Segmentation/DcmqiTable.h"
 #include "Segmentation/TextHeader.h"
 
 namespace myotet::segmentation {
@@ -188,6 +189,11 @@ std::string read_text(const fs::path& file) {
 std::vector<Row> read_rows(const fs::path& file) {
     const std::string content = read_text(file);
     std::vector<Row> rows;
+    if (trimmed(content).starts_with('{')) {
+        for (auto& [value, label] : parse_dcmqi_table(content, file))
+            if (!label.name.empty()) rows.push_back({0, value, {}, std::move(label)});
+        return rows;
+    }
     std::optional<Columns> columns;
     int line = 0;
     bool first = true;
@@ -213,10 +219,10 @@ std::map<std::int32_t, LabelName> read_name_table(const fs::path& file) {
         if (row.value == 0) continue;  // background, whatever it is called
         const auto [it, is_new] = names.emplace(row.value, row.label);
         if (!is_new && it->second.name != row.label.name)
-            throw InputError(file.string() + ", line " + std::to_string(row.line) +
-                             ": names label " + std::to_string(row.value) + " '" + row.label.name +
-                             "', which is '" + it->second.name +
-                             "' further up; keep one of the two lines");
+            throw InputError(
+                file.string() + (row.line > 0 ? ", line " + std::to_string(row.line) : "") +
+                ": names label " + std::to_string(row.value) + " '" + row.label.name +
+                "', which is '" + it->second.name + "' further up; keep one of the two");
     }
     if (names.empty())
         throw InputError(file.string() +
@@ -227,7 +233,8 @@ std::map<std::int32_t, LabelName> read_name_table(const fs::path& file) {
 std::optional<fs::path> find_name_table(const fs::path& label_file) {
     const std::string name = label_file.filename().string();
     std::string stem = name;
-    for (const char* suffix : {".seg.nrrd", ".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd"})
+    for (const char* suffix :
+         {".seg.nrrd", ".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".dcm"})
         if (lower_case(stem).ends_with(suffix) && stem.size() > std::string_view(suffix).size()) {
             stem.resize(stem.size() - std::string_view(suffix).size());
             break;
@@ -239,6 +246,11 @@ std::optional<fs::path> find_name_table(const fs::path& label_file) {
           stem + "_LUT.txt", stem + ".label", stem + ".lbl", stem + ".nii.txt", name + ".txt",
           stem + ".txt"})
         if (fs::is_regular_file(folder / candidate, ignored)) return folder / candidate;
+    // BIDS puts a .json of other content beside each file.
+    const fs::path json = folder / (stem + ".json");
+    if (fs::is_regular_file(json, ignored) && fs::file_size(json, ignored) <= kMostBytes &&
+        read_text(json).find("\"segmentAttributes\"") != std::string::npos)
+        return json;
 
     // Slicer saves the colour table under its own name; a sole one must be meant.
     std::vector<fs::path> tables;

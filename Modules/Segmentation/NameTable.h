@@ -10,7 +10,7 @@
 namespace myotet::segmentation {
 
 /// Reads a table of label names: BIDS _dseg.tsv, ITK-SNAP, FreeSurfer LUT,
-/// Slicer .ctbl, MRIcron, or plain lines `value name`; told apart by content.
+/// Slicer .ctbl, MRIcron, dcmqi JSON, or plain lines `value name`; told apart by content.
 /// A name for 0 is passed over.
 /// Throws IoError, or InputError with the line that makes no sense.
 [[nodiscard]] std::map<std::int32_t, LabelName> read_name_table(const std::filesystem::path& file);

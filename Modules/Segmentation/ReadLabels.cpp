@@ -9,6 +9,7 @@
 
 #include "Core/AtomicFile.h"
 #include "Core/Errors.h"
+#include "Segmentation/CleanName.h"
 #include "Segmentation/Formats.h"
 #include "Segmentation/NameTable.h"
 #include "Segmentation/TextHeader.h"
@@ -134,6 +135,11 @@ void add_names(LabelFile& labels, const fs::path& file, const fs::path& explicit
     }
 }
 
+void clean_names(Names& names) {
+    for (auto& [value, label] : names) label.name = clean_name(label.name);
+    std::erase_if(names, [](const auto& entry) { return entry.second.name.empty(); });
+}
+
 }  // namespace
 
 void check_geometry(const Eigen::Affine3d& index_to_lps, const fs::path& file) {
@@ -175,6 +181,7 @@ LabelFile read_labels(const fs::path& file, const ReadOptions& options) {
                          ": holds no labels (every voxel is 0), but at least one is needed; check "
                          "that the segmentation was exported and not an empty layer");
     add_names(result, file, options.names);
+    for (LabelVolume& layer : result.layers) clean_names(layer.names);
     return result;
 }
 

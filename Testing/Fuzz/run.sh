@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# run.sh SECONDS BUILD: fuzzes the readers of label files for that long. Builds
+# the target in the folder BUILD (77 is returned where clang++ is missing), where the inputs it finds are kept for the next
+# run; one that breaks a promise is left there as crash-*, leak-* or timeout-*.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+seconds="$1"
+build="$2"
+
+if ! command -v clang++ >/dev/null; then
+  echo "Skipped: clang++ is not here, so the readers are not fuzzed (apt-get install clang)."
+  exit 77
+fi
+generator=()
+if command -v ninja >/dev/null; then generator=(-G Ninja); fi
+cmake -S "$here" -B "$build" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ >"$build.log" 2>&1 ||
+  { cat "$build.log"; exit 1; }
+cmake --build "$build" -j "${MYOTET_JOBS:-2}" >>"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
+
+cd "$build"
+mkdir -p found
+./MakeSeeds seeds "$here/../../../shared/data/odd_inputs" "$here/../../../shared/data/labels"
+# What a small file may cost: a stream of 100 kB inflates to 100 MB at most, and
+# its labels take 4 bytes each. Leaks are looked for at the end.
+exec ./ReadersTarget found seeds -max_total_time="$seconds" -max_len=100000 -timeout=30 \
+  -rss_limit_mb=3000 -malloc_limit_mb=1500 -print_final_stats=1 -verbosity=0 -close_fd_mask=0
