@@ -95,6 +95,11 @@ std::string written(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// "7", or "1:7" for a layer above 0.
+std::string key_text(int layer, std::int32_t label) {
+    return (layer > 0 ? std::to_string(layer) + ":" : "") + std::to_string(label);
+}
+
 std::string row(const char* label, const std::string& name, const TissueReport& t) {
     char text[160];
     const double error =
@@ -150,7 +155,7 @@ std::string to_table(const RunReport& report) {
     TissueReport all;
     all.shapes.min_dihedral_deg = 180;
     for (const TissueReport& t : report.tissues) {
-        table += row(std::to_string(t.label).c_str(), t.name, t);
+        table += row(key_text(t.layer, t.label).c_str(), t.name, t);
         for (const std::string& sentence : t.broken_promises)
             table += "        broken promise: " + sentence + "\n";
         all.tets += t.tets;
@@ -180,9 +185,9 @@ std::string to_table(const LevelSetReport& report) {
         char text[200];
         const auto s = t.tissue.smoothing.value_or(levelset::SmoothingReport{});
         const double change = t.tissue.volume > 0 ? 100 * (t.volume / t.tissue.volume - 1) : 0;
-        std::snprintf(text, sizeof text, "%6d  %-32.32s %10.6g %7.2f %7.3f %7.3f %7.3f %8lld %7d\n",
-                      t.tissue.label, t.tissue.name.c_str(), t.volume, change, s.moved_mean,
-                      s.moved_95, s.moved_max,
+        std::snprintf(text, sizeof text, "%6s  %-32.32s %10.6g %7.2f %7.3f %7.3f %7.3f %8lld %7d\n",
+                      key_text(t.tissue.layer, t.tissue.label).c_str(), t.tissue.name.c_str(),
+                      t.volume, change, s.moved_mean, s.moved_95, s.moved_max,
                       static_cast<long long>(s.voxels_lost + s.voxels_gained), t.components);
         table += text;
     }
