@@ -22,11 +22,13 @@ set(Report_may_include Core Quality MeshFiles)
 
 # Third-party headers: a pattern of the header's name, then the rooms whose
 # .cpp files may include it. "Applications" is no room, but owns some.
-set(myotet_owned_headers itk nifti zlib openvdb yaml vtk tbb CLI spdlog nlohmann)
+set(myotet_owned_headers itk nifti dcmtk zlib openvdb yaml vtk tbb CLI spdlog nlohmann)
 set(itk_pattern "^itk[A-Z]")
 set(itk_owners Segmentation LevelSet)
 set(nifti_pattern "^nifti")
 set(nifti_owners Segmentation)
+set(dcmtk_pattern "^dcmtk/")
+set(dcmtk_owners Segmentation)
 set(zlib_pattern "^zlib\\.h$")
 set(zlib_owners Segmentation)
 set(openvdb_pattern "^openvdb/")
@@ -42,7 +44,7 @@ set(CLI_owners Applications)
 set(spdlog_pattern "^spdlog/")
 set(spdlog_owners Applications)
 set(nlohmann_pattern "^nlohmann/")
-set(nlohmann_owners Applications)
+set(nlohmann_owners Segmentation Applications)
 
 # Headers that any file may include: Eigen, the standard library (names
 # without a dot and without a folder) and a few of POSIX.

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # run.sh SECONDS BUILD: fuzzes the readers of label files for that long. Builds
-# the target in the folder BUILD (77 is returned where clang++ is missing), where the inputs it finds are kept for the next
+# the target in the folder BUILD, where the inputs it finds are kept for the next
 # run; one that breaks a promise is left there as crash-*, leak-* or timeout-*.
+# Returns 77 where Clang is missing.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 seconds="$1"
