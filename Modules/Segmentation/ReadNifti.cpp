@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -22,6 +23,8 @@ namespace fs = std::filesystem;
 // Label tables take kilobytes; what is larger is some other tool's data.
 constexpr std::uint64_t kMostExtensionBytes = std::uint64_t{1} << 24;
 constexpr double kSlopeTolerance = 1e-6;
+// Quaternions are written with seven digits.
+constexpr double kUnitQuaternion = 1e-3;
 // Two transforms that differ by less place every voxel in the same voxel.
 constexpr double kSameWithinVoxels = 0.5;
 // More labels than any atlas has; a header that tells of more lies.
@@ -189,11 +192,16 @@ std::optional<Eigen::Affine3d> sform(const NiftiHeader& h) {
 
 std::optional<Eigen::Affine3d> qform(const NiftiHeader& h) {
     if (h.qform_code <= 0) return {};
+    Eigen::Affine3d a = Eigen::Affine3d::Identity();
+    // The library makes a rotation of anything; b, c, d of one have at most length 1.
+    if (!(Vec3(h.quatern.data()).norm() <= 1 + kUnitQuaternion)) {
+        a.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+        return a;
+    }
     // Asked for a rotation alone: the library would take a spacing of zero or NaN as 1.
     const nifti_dmat44 m =
         nifti_quatern_to_dmat44(h.quatern[0], h.quatern[1], h.quatern[2], h.quatern[3],
                                 h.quatern[4], h.quatern[5], 1, 1, 1, h.pixdim[0] < 0 ? -1.0 : 1.0);
-    Eigen::Affine3d a = Eigen::Affine3d::Identity();
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 4; ++c)
             a.matrix()(r, c) = m.m[r][c] * (c < 3 ? std::abs(h.pixdim[c + 1]) : 1.0);
@@ -259,14 +267,14 @@ Eigen::Affine3d index_to_ras(const NiftiHeader& h, const Index3& size, Orientati
     const std::optional<Eigen::Affine3d> s = sform(h), q = qform(h);
     if (orientation == Orientation::sform) return chosen(s, "sform", file);
     if (orientation == Orientation::qform) return chosen(q, "qform", file);
-    if (!s) return q ? *q : pixdim_only(h, file, warnings);
-    if (!q || !spans_space(*q)) return *s;  // check_geometry refuses what spans no space
-    if (spans_space(*s)) {
-        compare_forms(*s, *q, size, file);
-        return *s;
-    }
-    warnings.push_back(file.string() +
-                       ": the sform in the header is singular or not finite; the qform was used.");
+    if (!s && !q) return pixdim_only(h, file, warnings);
+    const bool use_s = s && spans_space(*s), use_q = q && spans_space(*q);
+    if (use_s && use_q) compare_forms(*s, *q, size, file);
+    if (s && q && use_s != use_q)
+        warnings.push_back(file.string() + ": the " + (use_s ? "qform" : "sform") +
+                           " in the header is singular or not finite; the " +
+                           (use_s ? "sform" : "qform") + " was used.");
+    if (s && (use_s || !use_q)) return *s;  // check_geometry refuses what spans no space
     return *q;
 }
 

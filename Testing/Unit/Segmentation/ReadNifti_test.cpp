@@ -112,6 +112,22 @@ TEST_F(Nifti, ComparesFormsOverTheWholeVolume) {
     expect_refused(far, "voxel (149, 0, 0)");
 }
 
+TEST_F(Nifti, TakesTheFormThatMakesSense) {
+    const Vec3 first(-10, -20, 30);
+    // A quaternion of length 2 is no rotation, a spacing of 0 no spacing.
+    const std::string turned = with(with_qform(nifti_bytes(), 500), kQuatern, 2.0F);
+    const std::string flat = with(with_qform(nifti_bytes(), 500), kPixdim + 4, 0.0F);
+    for (const std::string& bytes : {turned, flat}) {
+        const LabelFile found = read(bytes);
+        EXPECT_EQ(found.layers.front().index_to_lps * Vec3(0, 0, 0), first);
+        EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("the sform was used")));
+        expect_refused(with(bytes, kSformCode, std::int16_t{0}), "not finite");
+    }
+    const LabelFile found = read(with(with_qform(nifti_bytes()), kSrow, 0.0F));
+    EXPECT_EQ(found.layers.front().index_to_lps * Vec3(0, 0, 0), first);
+    EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("the qform was used")));
+}
+
 TEST_F(Nifti, RefusesAFormThatIsAskedForAndAbsent) {
     expect_refused(nifti_bytes(), "the qform is asked for, but the header has none",
                    {.orientation = Orientation::qform});
