@@ -109,6 +109,7 @@ Band sample_solid(const Distance& distance, const Box& box, const CsgLattice& la
             band.block_of[s] = static_cast<std::int32_t>(band.position.size());
             band.position.push_back(place_of(s, band.blocks));
         }
+    const float on_surface = 1e-5f * static_cast<float>(lattice.spacing);
     band.values.resize(band.position.size() * kSize);
     parallel_for(0, band.position.size(), 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
@@ -116,8 +117,10 @@ Band sample_solid(const Distance& distance, const Box& box, const CsgLattice& la
             float* values = band.block(static_cast<std::int32_t>(b));
             for (int at = 0; at < kSize; ++at) {
                 const Vec3 p(at % kSide, at / kSide % kSide, at / (kSide * kSide));
-                values[at] = std::clamp(static_cast<float>(distance(low + lattice.spacing * p)),
-                                        -band.width, band.width);
+                const float d = static_cast<float>(distance(low + lattice.spacing * p));
+                // A sample on the surface belongs to the solid, and so not to what is cut off.
+                values[at] =
+                    std::abs(d) < on_surface ? -on_surface : std::clamp(d, -band.width, band.width);
             }
         }
     });

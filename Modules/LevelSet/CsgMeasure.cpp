@@ -89,33 +89,56 @@ PrincipalAxes principal_axes(const Band& band) {
     return out;
 }
 
+namespace {
+
+constexpr int kApron = 2;
+constexpr int kPadded = kSide + 2 * kApron;
+constexpr int kSteps[3] = {1, kPadded, kPadded* kPadded};
+
+// |n_axis| of the wall between two neighbouring samples: of the direction in
+// which a - b changes most, by central differences at both.
+double facing(const std::vector<float>& difference, int here, int there, int axis) {
+    Vec3 gradient;
+    for (int a = 0; a < 3; ++a)
+        gradient[a] = difference[here + kSteps[a]] - difference[here - kSteps[a]] +
+                      difference[there + kSteps[a]] - difference[there - kSteps[a]];
+    const double length = gradient.norm();
+    return length > 0 ? std::abs(gradient[axis]) / length : 0;
+}
+
+}  // namespace
+
 Contact contact(const Band& a, const Band& b) {
-    constexpr int n = kSide + 2;
-    constexpr int steps[3] = {1, n, n * n};
+    constexpr std::size_t count = std::size_t{kPadded} * kPadded * kPadded;
     const Index3 offset = block_offset(a, b);
-    std::array<float, n * n * n> in_a, in_b;
-    std::size_t faces = 0;
+    std::vector<float> in_a(count), in_b(count), difference(count);
+    double faces = 0;
     Vec3 sum = Vec3::Zero();
     for (const Index3& p : a.position) {
-        gather(a, p, 1, 1, in_a.data());
-        gather(b, {p[0] - offset[0], p[1] - offset[1], p[2] - offset[2]}, 1, 1, in_b.data());
+        gather(a, p, kApron, kApron, in_a.data());
+        gather(b, {p[0] - offset[0], p[1] - offset[1], p[2] - offset[2]}, kApron, kApron,
+               in_b.data());
+        for (std::size_t i = 0; i < count; ++i) difference[i] = in_a[i] - in_b[i];
         for (int at = 0; at < kSize; ++at) {
-            const Index3 q{at % kSide, at / kSide % kSide, at / (kSide * kSide)};
-            const int here = ((q[2] + 1) * n + q[1] + 1) * n + q[0] + 1;
+            const Vec3 q(at % kSide, at / kSide % kSide, at / (kSide * kSide));
+            const int here =
+                ((at / (kSide * kSide) + kApron) * kPadded + at / kSide % kSide + kApron) *
+                    kPadded +
+                at % kSide + kApron;
             if (!(in_a[here] < 0) || in_b[here] < 0) continue;
             for (int axis = 0; axis < 3; ++axis)
                 for (const int side : {-1, 1}) {
-                    const int there = here + side * steps[axis];
+                    const int there = here + side * kSteps[axis];
                     if (!(in_b[there] < 0) || in_a[there] < 0) continue;
-                    ++faces;
-                    sum += Vec3(p[0] * kSide + q[0], p[1] * kSide + q[1], p[2] * kSide + q[2]) +
-                           0.5 * side * Vec3::Unit(axis);
+                    const double face = facing(difference, here, there, axis);
+                    faces += face;
+                    sum +=
+                        face * (kSide * Vec3(p[0], p[1], p[2]) + q + 0.5 * side * Vec3::Unit(axis));
                 }
         }
     }
-    if (faces == 0) return {};
-    const double count = static_cast<double>(faces);
-    return {2.0 / 3.0 * count * a.spacing * a.spacing, a.origin + a.spacing * sum / count};
+    if (!(faces > 0)) return {};
+    return {faces * a.spacing * a.spacing, a.origin + a.spacing / faces * sum};
 }
 
 }  // namespace myotet::levelset

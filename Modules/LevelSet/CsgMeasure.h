@@ -29,9 +29,10 @@ struct Contact {
     double area = 0;             ///< mm^2
     Vec3 centre = Vec3::Zero();  ///< mean over the area, mm
 };
-/// Counts neighbouring samples of which one is in `a` alone and the other in
-/// `b` alone; each stands for 2/3 of a face, which is right on the mean over
-/// all directions of a wall (Cauchy).
+/// Neighbouring samples along an axis, one in `a` alone and the other in `b`
+/// alone, stand for a face times |n_axis|, n being the wall's normal: where it
+/// is flat these sum to its area, since a wall of area A crosses A |n_axis| /
+/// spacing^2 of the lattice's edges along that axis.
 [[nodiscard]] Contact contact(const Band& a, const Band& b);
 
 }  // namespace myotet::levelset

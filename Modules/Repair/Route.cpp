@@ -142,7 +142,7 @@ struct Search {
     double clearance;
     bool through_walls;
     std::vector<float> cost;
-    std::vector<signed char> came;  // direction number, -1 at sources
+    std::vector<signed char> came;  // direction number, -1 at the goal
 
     [[nodiscard]] float factor(std::size_t n) const {
         if (nodes.kind[n] == kWall) return nodes.wall[n] < 0 || !through_walls ? kNever : 50.0f;
@@ -155,50 +155,74 @@ struct Search {
         return f;
     }
 
-    // The node of the target that is cheapest to reach, or none.
+    // Spreads from the goal. Ends at the node of the beginning that lies most in
+    // the middle of those that are about as near, so that a bridge leaves a flat
+    // end from its centre.
     std::optional<std::size_t> run(const ProgressSink& progress) {
         using Entry = std::pair<float, std::uint32_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         cost.assign(nodes.kind.size(), kNever);
         came.assign(nodes.kind.size(), -1);
         for (std::size_t n = 0; n < nodes.kind.size(); ++n)
-            if (nodes.kind[n] == kFrom) {
+            if (nodes.kind[n] == kTo) {
                 cost[n] = 0;
                 queue.emplace(0.0f, static_cast<std::uint32_t>(n));
             }
+        constexpr float kAboutAsNear = 1.5f;  // samples
+        std::vector<std::size_t> ends;
         for (std::size_t popped = 0; !queue.empty(); ++popped) {
             if (popped % 65536 == 0) progress.check();
             const auto [so_far, n] = queue.top();
             queue.pop();
             if (so_far > cost[n]) continue;
-            if (nodes.kind[n] == kTo) return n;
-            const Index3 p = nodes.place(n);
-            for (int d = 0; d < 27; ++d) {
-                const Index3 q{p[0] + d % 3 - 1, p[1] + d / 3 % 3 - 1, p[2] + d / 9 - 1};
-                if (d == 13 || q[0] < 0 || q[1] < 0 || q[2] < 0 || q[0] >= nodes.size[0] ||
-                    q[1] >= nodes.size[1] || q[2] >= nodes.size[2])
-                    continue;
-                const std::size_t there = nodes.at(q[0], q[1], q[2]);
-                const int axes = (d % 3 != 1) + (d / 3 % 3 != 1) + (d / 9 != 1);
-                const float next = so_far + std::sqrt(float(axes)) * factor(there);
-                if (!(next < cost[there])) continue;
-                cost[there] = next;
-                came[there] = static_cast<signed char>(d);
-                queue.emplace(next, static_cast<std::uint32_t>(there));
-            }
+            if (!ends.empty() && so_far > cost[ends.front()] + kAboutAsNear) break;
+            if (nodes.kind[n] == kFrom)
+                ends.push_back(n);
+            else
+                spread(n, [&](std::size_t there) {
+                    queue.emplace(cost[there], static_cast<std::uint32_t>(there));
+                });
         }
-        return {};
+        if (ends.empty()) return {};
+        return most_central(ends);
     }
 
-    [[nodiscard]] std::vector<std::size_t> trace(std::size_t end) const {
-        std::vector<std::size_t> path{end};
+    template <class Reached>
+    void spread(std::size_t n, Reached&& reached) {
+        const Index3 p = nodes.place(n);
+        for (int d = 0; d < 27; ++d) {
+            const Index3 q{p[0] + d % 3 - 1, p[1] + d / 3 % 3 - 1, p[2] + d / 9 - 1};
+            if (d == 13 || q[0] < 0 || q[1] < 0 || q[2] < 0 || q[0] >= nodes.size[0] ||
+                q[1] >= nodes.size[1] || q[2] >= nodes.size[2])
+                continue;
+            const std::size_t there = nodes.at(q[0], q[1], q[2]);
+            const int axes = (d % 3 != 1) + (d / 3 % 3 != 1) + (d / 9 != 1);
+            const float next = cost[n] + std::sqrt(float(axes)) * factor(there);
+            if (!(next < cost[there])) continue;
+            cost[there] = next;
+            came[there] = static_cast<signed char>(d);
+            reached(there);
+        }
+    }
+
+    [[nodiscard]] std::size_t most_central(const std::vector<std::size_t>& ends) const {
+        Vec3 middle = Vec3::Zero();
+        for (const std::size_t n : ends) middle += nodes.point(n) / double(ends.size());
+        return *std::min_element(ends.begin(), ends.end(), [&](std::size_t a, std::size_t b) {
+            return (nodes.point(a) - middle).squaredNorm() <
+                   (nodes.point(b) - middle).squaredNorm();
+        });
+    }
+
+    // From the beginning to the goal.
+    [[nodiscard]] std::vector<std::size_t> trace(std::size_t from) const {
+        std::vector<std::size_t> path{from};
         while (came[path.back()] >= 0) {
             const int d = came[path.back()];
             const Index3 p = nodes.place(path.back());
             path.push_back(
                 nodes.at(p[0] - (d % 3 - 1), p[1] - (d / 3 % 3 - 1), p[2] - (d / 9 - 1)));
         }
-        std::reverse(path.begin(), path.end());
         return path;
     }
 };
@@ -219,15 +243,15 @@ Route find_route(const RouteTask& task, const ProgressSink& progress) {
     keep_near(task.end, kTo, nodes);
 
     Search search{nodes, task.clearance, false, {}, {}};
-    if (const auto end = search.run(progress)) {
-        for (const std::size_t n : search.trace(*end)) route.points.push_back(nodes.point(n));
+    if (const auto begin = search.run(progress)) {
+        for (const std::size_t n : search.trace(*begin)) route.points.push_back(nodes.point(n));
         for (std::size_t i = 1; i < route.points.size(); ++i)
             route.length += (route.points[i] - route.points[i - 1]).norm();
         return route;
     }
     search.through_walls = true;
-    if (const auto end = search.run(progress))
-        for (const std::size_t n : search.trace(*end)) {
+    if (const auto begin = search.run(progress))
+        for (const std::size_t n : search.trace(*begin)) {
             const int wall = nodes.wall[n];
             if (wall >= 0 && std::find(route.blocked_by.begin(), route.blocked_by.end(), wall) ==
                                  route.blocked_by.end())
