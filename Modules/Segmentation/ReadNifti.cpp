@@ -355,7 +355,7 @@ LabelFile read_nifti(const fs::path& file, const ReadOptions& options) {
                      [&](std::vector<std::int32_t>&& volume) { labels.take(volume); });
         result.layers = labels.finish(lps, names, result.warnings);
     } else {
-        result.layers = {{size, lps, read_scalars(stream, layout, result.warnings), names}};
+        result.layers.front() = {size, lps, read_scalars(stream, layout, result.warnings), names};
     }
     return result;
 }
