@@ -37,6 +37,12 @@ void add_scan_options(CLI::App& command, ScanOptions& options) {
         ->type_name("LIST");
     add_read_options(command, options.reading);
     command
+        .add_option("--close-gaps", options.close_gaps,
+                    "give unlabelled slits and pockets between tissues, up to this wide, to the "
+                    "nearest of them, mm (default: 0, none)")
+        ->check(kNotNegative)
+        ->type_name("MM");
+    command
         .add_option("--input-unit", options.input_unit,
                     "what a surface file's numbers mean: mm, cm or m (default: mm)")
         ->check(CLI::IsMember({"mm", "cm", "m"}));

@@ -95,7 +95,7 @@ LevelSetReport run_level_set_job(const LevelSetJobOptions& options, ProgressSink
 
     progress.report("reading", 0);
     Scan scan = read_scan(options.scan);
-    for (const std::string& warning : scan.warnings) progress.warn(warning);
+    tell(scan, progress);
     progress.check();
     seconds["read"] = watch.lap();
 

@@ -14,7 +14,7 @@ namespace {
 Scan read(const JobOptions& options, ProgressSink& progress) {
     progress.report("reading", 0);
     Scan scan = read_scan(options.scan);
-    for (const std::string& warning : scan.warnings) progress.warn(warning);
+    tell(scan, progress);
     return scan;
 }
 

@@ -62,6 +62,22 @@ Json options_json(const RunFacts& report) {
     return options;
 }
 
+Json gaps_json(const std::optional<levelset::GapReport>& g) {
+    if (!g) return nullptr;
+    Json gained = Json::object();
+    for (const auto& [label, voxels] : g->gained) gained[std::to_string(label)] = voxels;
+    return {{"closed_width_mm", g->width},
+            {"pockets", g->pockets},
+            {"pocket_voxels", g->pocket_voxels},
+            {"pocket_volume_mm3", g->pocket_volume},
+            {"cavities", g->cavities},
+            {"cavity_voxels", g->cavity_voxels},
+            {"cavity_volume_mm3", g->cavity_volume},
+            {"closed_voxels", g->narrow_voxels},
+            {"closed_volume_mm3", g->narrow_volume},
+            {"gained_voxels", gained}};
+}
+
 Json repair_json(const std::vector<repair::StepReport>& steps) {
     Json list = Json::array();
     for (const repair::StepReport& s : steps)
@@ -83,6 +99,7 @@ Json run_json(const RunFacts& run) {
             {"frame", "LPS"},
             {"units", "mm"},
             {"options", options_json(run)},
+            {"gaps", gaps_json(run.gaps)},
             {"repair", repair_json(run.repair)},
             {"threads", run.threads},
             {"peak_memory_bytes", run.peak_memory},

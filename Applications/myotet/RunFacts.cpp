@@ -29,6 +29,7 @@ RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& 
         {"input_unit", options.input_unit.empty() && surface ? "mm" : options.input_unit}};
     facts.options_number = {{"smooth_mm", sets.sets.smooth},
                             {"level_set_spacing_mm", sets.sets.spacing}};
+    facts.gaps = scan.gaps;
     facts.repair = sets.repair;
     facts.threads = thread_count();
     facts.warnings = scan.warnings;

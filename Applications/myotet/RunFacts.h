@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct RunFacts {
     std::vector<std::pair<std::string, std::string>> options_text;  ///< as resolved
     std::vector<std::pair<std::string, double>> options_number;
     std::vector<std::int32_t> labels;
+    std::optional<levelset::GapReport> gaps;
     std::vector<repair::StepReport> repair;
     int threads = 0;
     double peak_memory = 0;  ///< bytes

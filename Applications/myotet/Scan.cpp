@@ -10,6 +10,7 @@
 #include "ExitCodes.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Segmentation/Census.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
@@ -86,11 +87,24 @@ int count_outward_shells(const TriMesh& surface) {
         std::ranges::count_if(volumes, [&](const auto& v) { return v.second * whole > 0; }));
 }
 
+/// Measures, and closes where asked, what lies unlabelled between tissues.
+std::optional<levelset::GapReport> treat_gaps(std::vector<LabelVolume>& layers,
+                                              const ScanOptions& options) {
+    if (layers.size() > 1 && options.close_gaps > 0)
+        throw UsageError("--close-gaps: the segments of " + options.input.string() +
+                         " overlap in layers, where gaps are not one layer's; close them by a "
+                         "recipe, see --repair");
+    if (layers.size() > 1) return std::nullopt;
+    return options.close_gaps > 0 ? levelset::close_gaps(layers.front(), options.close_gaps)
+                                  : levelset::find_gaps(layers.front(), 0);
+}
+
 Scan read_label_scan(const ScanOptions& options) {
     if (!options.input_unit.empty())
         throw UsageError("--input-unit: " + options.input.string() +
                          " is a label file, which says its unit itself; leave the option out");
     segmentation::LabelFile file = segmentation::read_labels(options.input, options.reading);
+    const auto gaps = treat_gaps(file.layers, options);
     const auto counts = segmentation::count_labels(file.layers);
     const auto chosen = segmentation::choose_labels(file.layers, counts, options.labels);
     const auto is_chosen = [&](const segmentation::LabelCount& c) {
@@ -101,6 +115,7 @@ Scan read_label_scan(const ScanOptions& options) {
     for (const LabelVolume& volume : file.layers) areas.push_back(estimate_areas(volume));
 
     Scan scan;
+    scan.gaps = gaps;
     scan.spacing = file.layers.front().spacing();
     scan.names_from = file.names_from;
     scan.warnings = std::move(file.warnings);
@@ -120,8 +135,8 @@ Scan read_label_scan(const ScanOptions& options) {
 }
 
 Scan read_surface_scan(const ScanOptions& options) {
-    if (!options.labels.empty() || !options.reading.names.empty())
-        throw UsageError("--labels and --names: " + options.input.string() +
+    if (!options.labels.empty() || !options.reading.names.empty() || options.close_gaps > 0)
+        throw UsageError("--labels, --names and --close-gaps: " + options.input.string() +
                          " is a surface, which is one tissue; leave the options out");
     Scan scan;
     scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
@@ -164,6 +179,21 @@ Scan read_scan(const ScanOptions& options) {
     scan.input = options.input;
     scan.sha256 = sha256_of_file(options.input);
     return scan;
+}
+
+void tell(const Scan& scan, ProgressSink& progress) {
+    for (const std::string& warning : scan.warnings) progress.warn(warning);
+    if (!scan.gaps) return;
+    const levelset::GapReport& gaps = *scan.gaps;
+    if (gaps.width > 0)
+        progress.note("gaps up to " + readable(gaps.width) +
+                      " mm closed: " + counted(gaps.narrow_voxels, "voxel") + ", " +
+                      readable(gaps.narrow_volume) + " mm^3");
+    if (gaps.pockets > 0)
+        progress.note(counted(gaps.pockets, "unlabelled pocket") + " (" +
+                      readable(gaps.pocket_volume) + " mm^3) " + (gaps.width > 0 ? "lay" : "lie") +
+                      " enclosed between tissues" +
+                      (gaps.width > 0 ? "" : "; --close-gaps MM gives narrow ones to them"));
 }
 
 }  // namespace myotet::app

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "Core/LabelVolume.h"
+#include "Core/Progress.h"
 #include "Core/TetMesh.h"
 #include "LevelSet/FromLabels.h"
+#include "LevelSet/Gaps.h"
 #include "Segmentation/ReadLabels.h"
 
 namespace myotet::app {
@@ -18,6 +20,7 @@ struct ScanOptions {
     std::filesystem::path input;        ///< label file or surface
     std::string labels;                 ///< values or names, by commas; empty: all but 0
     segmentation::ReadOptions reading;  ///< of a label file
+    double close_gaps = 0;              ///< between tissues, up to this wide, mm; 0: none
     std::string input_unit;             ///< of a surface file: mm, cm, m; empty: mm
 };
 
@@ -38,11 +41,12 @@ struct Scan {
     std::filesystem::path input;
     std::vector<LabelVolume> layers;  ///< on one grid; empty for a surface
     std::optional<TriMesh> surface;
-    std::vector<Tissue> tissues;       ///< all, by layer and label value
-    Vec3 spacing = Vec3::Zero();       ///< of the voxels, mm; zero for a surface
-    int shells = 0;                    ///< outward closed pieces of a surface
-    std::filesystem::path names_from;  ///< where the names come from; empty: none
-    std::string sha256;                ///< of the input file
+    std::vector<Tissue> tissues;              ///< all, by layer and label value
+    std::optional<levelset::GapReport> gaps;  ///< between labels of a single layer
+    Vec3 spacing = Vec3::Zero();              ///< of the voxels, mm; zero for a surface
+    int shells = 0;                           ///< outward closed pieces of a surface
+    std::filesystem::path names_from;         ///< where the names come from; empty: none
+    std::string sha256;                       ///< of the input file
     std::vector<std::string> warnings;
 };
 
@@ -52,5 +56,8 @@ struct Scan {
 /// Throws UsageError when an option does not fit the kind of input, IoError,
 /// InputError.
 [[nodiscard]] Scan read_scan(const ScanOptions& options);
+
+/// Says the warnings, and what lies unlabelled between tissues.
+void tell(const Scan& scan, ProgressSink& progress);
 
 }  // namespace myotet::app

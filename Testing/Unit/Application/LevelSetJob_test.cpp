@@ -117,6 +117,29 @@ TEST_F(LevelSetJob, SegmentsOfTwoLayersStayWhole) {
     EXPECT_NEAR(decided["repair"][0]["removed_mm3"].get<double>(), 256, 0.03 * 256);
 }
 
+TEST_F(LevelSetJob, GapsAreAlwaysToldAndClosedOnDemand) {
+    LabelVolume blocks;  // 1 above 2, a slit of one voxel between, and a pocket in it
+    blocks.size = {14, 14, 17};
+    blocks.values.assign(14 * 14 * 17, 0);
+    for (int k = 2; k < 15; ++k)
+        for (int j = 2; j < 12; ++j)
+            for (int i = 2; i < 12; ++i) {
+                const bool rim = i == 2 || i == 11 || j == 2 || j == 11;
+                blocks.values[blocks.offset(i, j, k)] = k < 8 ? 2 : k > 8 || rim ? 1 : 0;
+            }
+    const fs::path scan = save(blocks);
+    const Json open = report(scan);
+    EXPECT_EQ(open["gaps"]["pockets"], 1);
+    EXPECT_EQ(open["gaps"]["pocket_voxels"], 64);
+    EXPECT_EQ(open["gaps"]["closed_voxels"], 0);
+    const Json closed = report(scan, {"--close-gaps", "1.5"});
+    EXPECT_EQ(closed["gaps"]["closed_voxels"], 64);
+    double before = 0, after = 0;
+    for (const Json& t : open["tissues"]) before += t["voxels"].get<double>();
+    for (const Json& t : closed["tissues"]) after += t["voxels"].get<double>();
+    EXPECT_EQ(after - before, 64);
+}
+
 TEST_F(LevelSetJob, ARecipeThatCannotBeDoneLeavesNothing) {
     const fs::path scan = save(phantoms::make_phantom("blocks").volume);
     const fs::path recipe = write("r.yaml", "steps:\n  - keep_largest: smal_block\n");
