@@ -3,14 +3,17 @@
 # run.sh SECONDS BUILD: fuzzes the readers of label files for that long. Builds
 # the target in the folder BUILD, where the inputs it finds are kept for the next
 # run; one that breaks a promise is left there as crash-*, leak-* or timeout-*.
-# Returns 77 where Clang is missing.
+# Returns 77 where Clang or its libFuzzer is missing. MYOTET_JOBS: compilers at once.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 seconds="$1"
 build="$2"
 
-if ! command -v clang++ >/dev/null; then
-  echo "Skipped: clang++ is not here, so the readers are not fuzzed (apt-get install clang)."
+# libFuzzer is in a package of its own.
+target='extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }'
+if ! clang++ -x c++ -fsanitize=fuzzer,address,undefined -o /dev/null - <<<"$target" 2>/dev/null; then
+  echo "Skipped: the readers are fuzzed with clang++ and libFuzzer, which are not here" \
+    "(apt-get install clang libclang-rt-dev)."
   exit 77
 fi
 generator=()
