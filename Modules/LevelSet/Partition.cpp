@@ -256,7 +256,7 @@ void restore_cells(std::vector<RegionBand>& regions, const Places& places,
 int match_totals(const std::vector<RegionBand>& regions, const Places& places,
                  std::span<const SharedWall> walls, std::span<const double> total,
                  std::vector<char> moved, Volumes& volumes, PartitionSummary& summary) {
-    constexpr int kMostIterations = 12;
+    constexpr int kMostIterations = 12, kTries = 4;
     constexpr double kGoodEnough = 1e-3;
     const std::size_t count = regions.size();
     const double spacing = regions[0].band.spacing;
@@ -267,6 +267,8 @@ int match_totals(const std::vector<RegionBand>& regions, const Places& places,
         std::vector<double> missing(count, 0.0);
         summary.largest_error = 0;
         for (std::size_t r = 1; r < count; ++r) {
+            // Nothing is left of a speck that fell between the samples.
+            if (!(now[r] > 0) && summary.iterations + iterations >= kTries) continue;
             const double error = std::abs(total[r] - now[r]) / total[r];
             summary.largest_error = std::max(summary.largest_error, error);
             // Small regions answer less than their walls' area promises.
@@ -274,7 +276,9 @@ int match_totals(const std::vector<RegionBand>& regions, const Places& places,
                 answer[r] = std::clamp((now[r] - before[r]) / asked[r], 0.25, 1.5);
             if (error > kGoodEnough) missing[r] = (total[r] - now[r]) / answer[r];
         }
-        if (summary.largest_error < kGoodEnough || iterations == kMostIterations) return iterations;
+        if (summary.largest_error < kGoodEnough ||
+            summary.iterations + iterations == kMostIterations)
+            return iterations;
         const auto change = offsets_for(missing, walls);
         for (std::size_t r = 1; r < count; ++r) {
             const double last = summary.offset[r];
