@@ -142,6 +142,31 @@ Band framed(const Band& band, int margin) {
     return out;
 }
 
+Band cropped(const Band& band, const Box& box) {
+    const double block = kSide * band.spacing;
+    Index3 min, max;  // both ends inclusive
+    Band out;
+    out.spacing = band.spacing;
+    out.width = band.width;
+    for (int a = 0; a < 3; ++a) {
+        min[a] = static_cast<int>(std::floor((box.min[a] - band.origin[a]) / block));
+        max[a] = static_cast<int>(std::floor((box.max[a] - band.origin[a]) / block));
+        out.origin[a] = band.origin[a] + min[a] * block;
+        out.blocks[a] = max[a] - min[a] + 1;
+    }
+    for (int k = min[2]; k <= max[2]; ++k)
+        for (int j = min[1]; j <= max[1]; ++j)
+            for (int i = min[0]; i <= max[0]; ++i) {
+                const std::int32_t number = band.find({i, j, k});
+                out.block_of.push_back(number);
+                if (number < 0) continue;
+                out.block_of.back() = static_cast<std::int32_t>(out.position.size());
+                out.position.push_back({i - min[0], j - min[1], k - min[2]});
+                out.values.insert(out.values.end(), band.block(number), band.block(number) + kSize);
+            }
+    return out;
+}
+
 bool is_empty(const Band& band) {
     return std::none_of(band.values.begin(), band.values.end(), [](float v) { return v < 0; });
 }

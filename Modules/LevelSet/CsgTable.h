@@ -13,4 +13,7 @@ namespace myotet::levelset {
 /// from what lies beyond, and `margin` blocks around them.
 [[nodiscard]] Band framed(const Band& band, int margin);
 
+/// Only the blocks that reach into `box`; what lies beyond counts as outside.
+[[nodiscard]] Band cropped(const Band& band, const Box& box);
+
 }  // namespace myotet::levelset

@@ -26,7 +26,9 @@ std::string mm(double value) {
 
 std::string lps(const Vec3& local, const Workshop& shop) {
     const Vec3 p = shop.scene().frame.to_lps(local);
-    return "[" + mm(p.x()) + ", " + mm(p.y()) + ", " + mm(p.z()) + "]";
+    char text[80];
+    std::snprintf(text, sizeof text, "[%.1f, %.1f, %.1f]", p.x(), p.y(), p.z());
+    return text;
 }
 
 std::string join_names(const std::vector<int>& tissues, const Workshop& shop) {
@@ -149,11 +151,12 @@ Growth::Result grown_enough(const Growth& growth, std::array<double, 2> radius, 
                 "give way in takes_from, or ask for less with 'over'");
 }
 
-std::string describe(const Growth::Result& made, double gap, int goal, const Workshop& shop) {
-    return "bridge of " + mm(made.line.length) + " mm across a gap of " + mm(gap) + " mm, from " +
-           lps(made.line.points.front(), shop) + ", radius " + mm(made.line.radius.front()) +
-           " to " + mm(made.line.radius.back()) + " mm; touches " + shop.name(goal) + " over " +
-           mm(made.touch.area) + " mm^2 about " + lps(made.touch.centre, shop);
+std::string describe(const Growth::Result& made, const std::string& across, int goal,
+                     const Workshop& shop) {
+    return "bridge of " + mm(made.line.length) + " mm " + across + ", radius " +
+           mm(made.line.radius.front()) + " to " + mm(made.line.radius.back()) + " mm; touches " +
+           shop.name(goal) + " over " + mm(made.touch.area) + " mm^2 about " +
+           lps(made.touch.centre, shop);
 }
 
 }  // namespace
@@ -186,7 +189,9 @@ void run(const Grow& task, Workshop& shop) {
                     : std::max(radius[0], std::sqrt(task.over / 3.14159265358979));
     const int into = task.into ? shop.add(*task.into) : -1;
     Growth::Result made = grown_enough(growth, radius, into, shop);
-    const std::string note = describe(made, route.length, goal, shop);
+    const std::string across = now.area > 0 ? "where they touched over " + mm(now.area) + " mm^2"
+                                            : "across a gap of " + mm(route.length) + " mm";
+    const std::string note = describe(made, across, goal, shop);
     shop.replace(into >= 0 ? into : tissue, std::move(made.form), around.givers, note);
 }
 

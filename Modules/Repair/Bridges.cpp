@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "LevelSet/CsgTable.h"
 #include "LevelSet/Primitives.h"
 
 namespace myotet::repair {
@@ -24,7 +25,10 @@ double length_of(const std::vector<Vec3>& path) {
 Ball ball_near(const Band& solid, const Vec3& point, double reach) {
     constexpr double kThick = 8, kThickSamples = 10;
     const double width = std::max(kThick / solid.spacing, kThickSamples);
-    const Band wide = levelset::settle(solid, width);
+    // What is farther away than this changes neither the balls nor the climb.
+    const Vec3 near = Vec3::Constant(reach + (width + 2) * solid.spacing);
+    const Band wide =
+        levelset::settle(levelset::cropped(solid, Box{point - near, point + near}), width);
     Ball best{point, 0};
     Vec3 p = point;
     const double step = 0.25 * solid.spacing;

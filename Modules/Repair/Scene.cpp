@@ -45,14 +45,13 @@ void add_layer(Scene& scene, levelset::LabelLevelSets&& sets, const LabelVolume&
             "the layers of the scan lie on different lattices, which no repair can join; give all "
             "of them one spacing");
     }
-    int layer = 0;
-    for (const Tissue& tissue : scene.tissues) layer = std::max(layer, tissue.layer + 1);
     for (levelset::Region& region : sets.regions) {
         const bool first = scene.tissues.empty() || scene.tissues.back().label != region.label ||
-                           scene.tissues.back().layer != layer;
+                           scene.tissues.back().layer != region.layer;
         if (first)
-            scene.tissues.push_back(
-                {.label = region.label, .layer = layer, .name = volume.name_of(region.label)});
+            scene.tissues.push_back({.label = region.label,
+                                     .layer = region.layer,
+                                     .name = volume.name_of(region.label)});
         scene.tissues.back().regions.push_back(std::move(region));
     }
     sets.regions.clear();

@@ -40,8 +40,8 @@ struct Scene {
     std::function<TriMesh(const std::filesystem::path&)> read_surface;
 };
 
-/// Adds the tissues of one layer, by label value, with the volume's names; the
-/// first layer brings frame, spacing and field of view. Throws InputError when a
+/// Adds the tissues of one layer, which its regions name, with the volume's
+/// names; the first layer brings frame, spacing and field of view. Throws InputError when a
 /// later one lies on another lattice.
 void add_layer(Scene& scene, levelset::LabelLevelSets&& sets, const LabelVolume& volume);
 

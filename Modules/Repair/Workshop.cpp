@@ -201,6 +201,7 @@ void Workshop::settle_into(Tissue& tissue, const Band& whole) {
         std::vector<char> others(pieces.volume.size(), 1);
         others[p] = 0;
         levelset::Region region;
+        region.layer = tissue.layer;
         region.label = tissue.label;
         region.component = static_cast<int>(p);
         region.phi = levelset::assemble(
