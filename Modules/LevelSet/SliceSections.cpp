@@ -23,8 +23,11 @@ void fill_section(SliceSections& s, int slice, std::array<int, 2> seed,
         const auto p = stack.back();
         stack.pop_back();
         ++section.area;
+        const double x = p[0] - seed[0], y = p[1] - seed[1];
+        const std::array<double, 3> square{x * x, x * y, y * y};
+        for (int n = 0; n < 3; ++n) section.spread[n] += square[n];
         for (int a = 0; a < 2; ++a) {
-            section.centre[a] += p[a];
+            section.centre[a] += p[a] - seed[a];
             section.low[a] = std::min(section.low[a], p[a]);
             section.high[a] = std::max(section.high[a], p[a]);
             for (const int step : {-1, 1}) {
@@ -36,7 +39,12 @@ void fill_section(SliceSections& s, int slice, std::array<int, 2> seed,
             }
         }
     }
-    for (double& c : section.centre) c /= static_cast<double>(section.area);
+    const auto area = static_cast<double>(section.area);
+    for (double& c : section.centre) c /= area;
+    const double x = section.centre[0], y = section.centre[1];
+    const std::array<double, 3> square{x * x, x * y, y * y};
+    for (int n = 0; n < 3; ++n) section.spread[n] = section.spread[n] / area - square[n];
+    for (int a = 0; a < 2; ++a) section.centre[a] += seed[a];
     s.sections.push_back(section);
 }
 

@@ -17,7 +17,9 @@ struct Section {
     std::array<int, 2> low{0, 0}, high{0, 0};  ///< pixel box, both ends inclusive
     std::int64_t area = 0;                     ///< pixels
     Point2 centre{0, 0};                       ///< mean of its pixels' indices
-    std::vector<int> above, below;             ///< sections it shares pixels with, by number
+    /// Mean square of the first index, of the product, of the second, from the centre's.
+    std::array<double, 3> spread{0, 0, 0};
+    std::vector<int> above, below;  ///< sections it shares pixels with, by number
 };
 
 /// The sections of one region in the slices across `axis`.

@@ -58,27 +58,47 @@ private:
         return it->second;
     }
 
-    // Area of what a section goes on into, below or above; where that goes on
-    // into others too, its share of it.
-    double area_beyond(int section, bool above) const {
-        double area = 0;
-        const Section& s = sections_.sections[section];
-        for (const int n : above ? s.above : s.below) {
-            const Section& next = sections_.sections[n];
-            double all = 0;
-            for (const int m : above ? next.below : next.above)
-                all += static_cast<double>(sections_.sections[m].area);
-            area += static_cast<double>(next.area) * static_cast<double>(s.area) / all;
+    // The sections that these lie on, or that lie on these.
+    std::vector<int> beyond(const std::vector<int>& which, bool above) const {
+        std::vector<int> out;
+        for (const int n : which) {
+            const auto& next = above ? sections_.sections[n].above : sections_.sections[n].below;
+            out.insert(out.end(), next.begin(), next.end());
         }
-        return area;
+        return out;
     }
 
-    // The cap beyond one side of a section, from its other side.
-    SliceCap cap_beyond(int section, bool above) const {
-        const Section& s = sections_.sections[section];
-        double before_that = 0;
-        for (const int n : above ? s.below : s.above) before_that += area_beyond(n, !above);
-        return cap_of(static_cast<double>(s.area), area_beyond(section, !above), before_that);
+    // (area / length)^2, to which a section's squared radius is in proportion,
+    // be it round or long; the length from its moments. 0 for none.
+    double squared_radius(const std::vector<int>& which) const {
+        double area = 0;
+        Point2 centre{0, 0};
+        for (const int n : which) {
+            const Section& s = sections_.sections[n];
+            area += static_cast<double>(s.area);
+            for (int a = 0; a < 2; ++a) centre[a] += static_cast<double>(s.area) * s.centre[a];
+        }
+        if (!(area > 0)) return 0;
+        double xx = 1.0 / 12, xy = 0, yy = xx;  // of a pixel
+        for (const int n : which) {
+            const Section& s = sections_.sections[n];
+            const double share = static_cast<double>(s.area) / area;
+            const double x = s.centre[0] - centre[0] / area, y = s.centre[1] - centre[1] / area;
+            xx += share * (s.spread[0] + x * x);
+            xy += share * (s.spread[1] + x * y);
+            yy += share * (s.spread[2] + y * y);
+        }
+        xx *= spacing_[0] * spacing_[0], xy *= spacing_[0] * spacing_[1];
+        yy *= spacing_[1] * spacing_[1];
+        const double longest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+        return area * area / longest;
+    }
+
+    // The cap beyond one side of sections, from their other side.
+    SliceCap cap_beyond(const std::vector<int>& which, bool above) const {
+        const auto before = beyond(which, !above);
+        return cap_of(squared_radius(which), squared_radius(before),
+                      squared_radius(beyond(before, !above)));
     }
 
     // Where a capped section is heading, pixels a slice: from the one before, if alike.
@@ -98,8 +118,9 @@ private:
             if (!(above ? s.above : s.below).empty()) continue;
             SlicePiece piece;
             (above ? piece.lower : piece.upper) = map_of({n});
-            piece.cut = s.slice == (above ? scan_slices_ - 1 : 0);
-            piece.cap = cap_beyond(n, above);
+            const SliceMap& map = shape_.maps[above ? piece.lower : piece.upper];
+            piece.cut = s.slice == (above ? scan_slices_ - 1 : 0) || map.depth < shape_.pixel;
+            piece.cap = cap_beyond({n}, above);
             if (!piece.cut) piece.shift = heading(n, above);
             shape_.pieces.push_back(piece);
         }
@@ -131,22 +152,15 @@ private:
         piece.lower = map_of(lower);
         piece.upper = map_of(upper);
         piece.shift = shift_between(lower, upper);
-        std::vector<int> below, above;
-        for (const int n : lower)
-            below.insert(below.end(), sections_.sections[n].below.begin(),
-                         sections_.sections[n].below.end());
-        for (const int n : upper)
-            above.insert(above.end(), sections_.sections[n].above.begin(),
-                         sections_.sections[n].above.end());
+        const auto below = beyond(lower, false), above = beyond(upper, true);
         piece.below_lower = map_of(below);
         piece.above_upper = map_of(above);
         // A cap's r' = -r_0 beta / 2 a slice.
         if (below.empty() && sections_.sections[lower[0]].slice > 0)
             piece.lower_slope =
-                -0.5 * shape_.maps[piece.lower].depth * cap_beyond(lower[0], false).beta;
+                -0.5 * shape_.maps[piece.lower].depth * cap_beyond(lower, false).beta;
         if (above.empty() && sections_.sections[upper[0]].slice + 1 < scan_slices_)
-            piece.upper_slope =
-                0.5 * shape_.maps[piece.upper].depth * cap_beyond(upper[0], true).beta;
+            piece.upper_slope = 0.5 * shape_.maps[piece.upper].depth * cap_beyond(upper, true).beta;
         shape_.pieces.push_back(piece);
     }
 
@@ -236,12 +250,12 @@ double SliceCap::end() const {
     return (std::sqrt(beta * beta + 4 * gamma) - beta) / (2 * gamma);
 }
 
-SliceCap cap_of(double area, double before, double before_that) {
+SliceCap cap_of(double squared, double before, double before_that) {
     SliceCap cap;
-    if (before > area) {
-        const double last = (before - area) / area;
+    if (before > squared) {
+        const double last = (before - squared) / squared;
         // The slope at the section itself lies half a slice further on.
-        const double bend = before_that > 0 ? last - (before_that - before) / area : 0;
+        const double bend = before_that > 0 ? last - (before_that - before) / squared : 0;
         cap.beta = last + std::clamp(0.5 * bend, -0.5 * last, 0.5 * last);
         cap.beta = std::min(cap.beta, kSteepest);
     }

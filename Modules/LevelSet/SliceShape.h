@@ -10,8 +10,8 @@ namespace myotet::levelset {
 
 /// How a section shrinks to nothing beyond the last slice that shows it. Its
 /// radius r falls as (r / r_0)^2 = 1 - beta t - gamma t^2, t in slices, as an
-/// ellipsoid's does: beta goes on with the areas of the sections before, and a
-/// blunt end takes half a slice of volume.
+/// ellipsoid's does: beta goes on with the sections before, and a blunt end takes
+/// half a slice of volume.
 struct SliceCap {
     double beta = 0, gamma = 0;
     /// 1 - r / r_0 at t; beyond the tip it goes on growing.
@@ -20,9 +20,9 @@ struct SliceCap {
     [[nodiscard]] double end() const;
 };
 
-/// The cap of a section of `area`; `before` and `before_that` are the areas of
-/// what it goes on from in the next slices, 0 where there is nothing.
-[[nodiscard]] SliceCap cap_of(double area, double before, double before_that);
+/// The cap of a section from its `squared` radius; `before` and `before_that` are
+/// those of what it goes on from in the next slices, 0 where there is nothing.
+[[nodiscard]] SliceCap cap_of(double squared, double before, double before_that);
 
 /// A part of a region between two slices: sections that lie on each other, or
 /// the cap of one that nothing lies on. Numbers are those of maps; -1: none.
@@ -32,7 +32,8 @@ struct SlicePiece {
     double lower_slope = 0, upper_slope = 0;  ///< mm a slice, where there is no further map
     Point2 shift{0, 0};  ///< pixels that the part moves from one slice to the next
     SliceCap cap;        ///< of a part with one section
-    bool cut = false;    ///< by the end of the scan, half a slice on
+    /// Ends flat half a slice on: cut off by the end of the scan, or too thin to be rounded.
+    bool cut = false;
 };
 
 /// A region of a scan in thick slices as signed distances within the slices,

@@ -30,6 +30,12 @@ struct Prober {
     int thick_axis;      // across which shape is interpolated, or -1
     double thin_across;  // what a voxel's side across slices counts in thin parts
 
+    // Such specks are held across the slices as everywhere.
+    [[nodiscard]] bool one_slice_high(RegionMap::Owner own) const {
+        return own > 0 &&
+               map.regions[own - 1].min[thick_axis] == map.regions[own - 1].max[thick_axis];
+    }
+
     // Whether all voxels of the window have one owner: blocks of 27 equal
     // voxels two apart cover it.
     [[nodiscard]] bool uniform(const Index3& v) const {
@@ -51,7 +57,8 @@ struct Prober {
         double nearest = std::numeric_limits<double>::infinity(), boxes = nearest;
         const auto gap = [&](int a, int c) { return std::max(0.0, std::abs(u[a] - c) - 0.5); };
         Vec3 counts = Vec3::Ones();
-        if (thin && thick_axis >= 0) counts[thick_axis] = thin_across;
+        if (thin && thick_axis >= 0 && !one_slice_high(map.owner_at(v[0], v[1], v[2])))
+            counts[thick_axis] = thin_across;
         for (int k = v[2] - window[2]; k <= v[2] + window[2]; ++k) {
             const double gz = gap(2, k), dz = gz * plane_spacing[2];
             for (int j = v[1] - window[1]; j <= v[1] + window[1]; ++j) {
