@@ -52,18 +52,21 @@ void each_region(std::size_t count, std::string_view stage, ProgressSink& progre
     });
 }
 
-Allowance allowance_for(const LabelGrid& grid) {
+Allowance allowance_for(const LabelGrid& grid, Smoothing smoothing) {
     Allowance allowance;
     const Vec3& side = grid.lattice.plane_spacing;
     const int thick = grid.lattice.thick_axis;
     allowance.voxels = grid.smooth / (thick < 0 ? side.maxCoeff() : larger_pixel_side(side, thick));
+    // A voxel's centre lies half its side from its walls.
+    if (smoothing == Smoothing::constrained) allowance.voxels = std::min(allowance.voxels, 0.5);
     // Locks look one voxel far.
     if (allowance.voxels > 1) allowance.voxels = std::numeric_limits<double>::infinity();
     return allowance;
 }
 
-void smooth_region(const LabelGrid& grid, const ProgressSink& progress, RegionBand& region) {
-    const bool bounded = std::isfinite(allowance_for(grid).voxels);
+void smooth_region(const LabelGrid& grid, const Allowance& allowance, const ProgressSink& progress,
+                   RegionBand& region) {
+    const bool bounded = std::isfinite(allowance.voxels);
     FlowOptions options;
     options.time = (bounded ? kLonger : 1) * flow_time(grid.smooth);
     options.give_back_radius = kGiveBack * grid.smooth;
@@ -156,7 +159,8 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     const auto walls = shared_walls(map, face_area(volume));
     const LabelGrid grid = lay_grid(volume, walls, resolve(options, volume));
     const auto claims = claim_samples(map, grid.lattice);
-    const VoxelScene scene{map, grid.lattice, claims, allowance_for(grid), kWorkWidth};
+    const VoxelScene scene{map, grid.lattice, claims, allowance_for(grid, options.smoothing),
+                           kWorkWidth};
 
     std::vector<RegionBand> work(map.regions.size() + 1);
     // Between thick slices the background is what the regions leave.
@@ -170,11 +174,13 @@ LabelLevelSets from_labels(const LabelVolume& volume, std::span<const std::int32
     });
     if (thick) work[0] = background_band(scene, work);
     each_region(work.size(), "smoothing", progress,
-                [&](std::size_t r) { smooth_region(grid, progress, work[r]); });
+                [&](std::size_t r) { smooth_region(grid, scene.allowance, progress, work[r]); });
 
     progress.report("partition", 0);
+    WantedVolumes wanted = wanted_volumes(scene, grid, work);
+    wanted.hold_voxels = options.smoothing == Smoothing::constrained;
     const PartitionSummary partition =
-        make_partition(work, map, grid.lattice, walls, wanted_volumes(scene, grid, work), progress);
+        make_partition(work, map, grid.lattice, walls, wanted, progress);
     progress.report("partition", 1);
 
     LabelLevelSets out;

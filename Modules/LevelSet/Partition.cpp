@@ -8,6 +8,7 @@
 
 #include "Core/Parallel.h"
 #include "LevelSet/Flow.h"
+#include "LevelSet/HoldVoxels.h"
 #include "LevelSet/Measure.h"
 #include "LevelSet/Offsets.h"
 #include "LevelSet/Places.h"
@@ -293,6 +294,18 @@ int match_totals(const std::vector<RegionBand>& regions, const Places& places,
     }
 }
 
+// Offsets and locks become part of the samples.
+void bake(std::vector<RegionBand>& regions, std::span<const double> offset) {
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        Band& band = regions[r].band;
+        const float shift = static_cast<float>(offset[r]);
+        for (float& v : band.values)
+            if (std::abs(v) < band.width) v = std::clamp(v + shift, -band.width, band.width);
+        apply_locks(band, {regions[r].locks, regions[r].lock_unit});
+        std::fill(regions[r].locks.begin(), regions[r].locks.end(), std::int8_t{0});
+    }
+}
+
 }  // namespace
 
 PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
@@ -321,8 +334,14 @@ PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMa
         summary.iterations += moves;
         if (pass > 0 && moves == 0) break;
     }
-    summary.seams = all_seams(regions, places, summary.offset);
-    apply(regions, places, summary.offset);
+    std::vector<double> offset = summary.offset;
+    if (wanted.hold_voxels) {
+        bake(regions, offset);
+        hold_voxels(regions, map, lattice, progress);
+        offset.assign(regions.size(), 0.0);
+    }
+    summary.seams = all_seams(regions, places, offset);
+    apply(regions, places, offset);
     return summary;
 }
 

@@ -26,6 +26,7 @@ struct WantedVolumes {
     std::vector<double> total;       ///< per region
     std::vector<CellVolumes> cells;  ///< per region, in its stored blocks; empty: totals only
     double radius = 0;               ///< mm over which the cells' volumes are to be met
+    bool hold_voxels = false;        ///< no voxel's centre may leave its region, which comes first
 };
 
 /// What make_partition did.
@@ -43,7 +44,8 @@ struct PartitionSummary {
 /// within cells too. Before that each region's
 /// volume is restored, as the partition will measure it: place by place in a
 /// few rounds, then in total by constant offsets found together for all.
-/// Locks hold throughout. Throws Interrupted.
+/// Locks hold throughout, but where voxels' centres need otherwise. Throws
+/// Interrupted.
 PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMap& map,
                                 const SharedLattice& lattice, std::span<const SharedWall> walls,
                                 const WantedVolumes& wanted, const ProgressSink& progress);
