@@ -33,13 +33,19 @@ constexpr const char* kLabelmapSeg = "1.2.840.10008.5.1.4.1.1.66.7";
 // that makes more of it than this lies.
 constexpr double kMostVoxelsPerByte = 4096;
 
-/// A checked object, with what DCMTK 3.6.7 does not tell of it. Its frames are
-/// wrong (empty) where their number of pixels is no multiple of 8, so the pixels
-/// are kept as they are: bit after bit, no frame starting a new byte (DICOM
-/// PS3.5, section 8.1.1).
+/// DCMTK's object, read by us: DCMTK's own way to load one loses its memory
+/// when the reading fails (3.6.7).
+struct Segmentation : DcmSegmentation {
+    using DcmSegmentation::readWithoutPixelData;
+};
+
+/// A checked object. Its pixels are kept as they are, bit after bit, no frame
+/// starting a new byte (DICOM PS3.5, section 8.1.1): DCMTK 3.6.7 makes empty
+/// frames of them where a frame's number of pixels is no multiple of 8.
 struct Loaded {
-    std::unique_ptr<DcmSegmentation> segmentation;
+    std::unique_ptr<Segmentation> segmentation = std::make_unique<Segmentation>();
     int rows = 0, columns = 0;
+    Uint32 frames = 0;
     std::vector<std::uint8_t> pixels;
 };
 
@@ -81,8 +87,8 @@ void check_kind(DcmDataset& data, const fs::path& file) {
                          "', but BINARY is read; export a binary segmentation");
 }
 
-/// Refuses pixels that are not as many as the header tells of.
-void check_pixels(DcmDataset& data, const fs::path& file) {
+/// Rows, columns, frames and pixels, refused when they are not as many as told.
+Loaded take_pixels(DcmDataset& data, const fs::path& file) {
     Uint16 rows = 0, columns = 0, bits = 0;
     Sint32 frames = 0;
     (void)data.findAndGetUint16(DCM_Rows, rows);
@@ -94,11 +100,11 @@ void check_pixels(DcmDataset& data, const fs::path& file) {
                          std::to_string(columns) + " x " + std::to_string(rows) + " pixels of " +
                          std::to_string(bits) +
                          " bit, but there must be frames of pixels of 1 bit; export it again");
-    DcmElement* pixels = nullptr;
-    if (data.findAndGetElement(DCM_PixelData, pixels).bad() || pixels == nullptr)
-        refuse(file, "holds no pixels; export it again");
+    const Uint8* bytes = nullptr;
+    unsigned long there = 0;
+    if (data.findAndGetUint8Array(DCM_PixelData, bytes, &there).bad() || bytes == nullptr)
+        refuse(file, "holds no pixels that can be read; export it again");
     const std::uint64_t needed = (std::uint64_t{rows} * columns * frames + 7) / 8;
-    const std::uint64_t there = pixels->getLength();
     if (there < needed || there > needed + 1)  // the length is even
         refuse(file, "holds " + std::to_string(there) + " bytes of pixels where its header's " +
                          std::to_string(frames) + " frames take " + std::to_string(needed) +
@@ -108,6 +114,10 @@ void check_pixels(DcmDataset& data, const fs::path& file) {
         groups == nullptr || groups->card() != static_cast<unsigned long>(frames))
         refuse(file, "does not tell the place of each of its " + std::to_string(frames) +
                          " frames; export it again");
+    return {.rows = rows,
+            .columns = columns,
+            .frames = static_cast<Uint32>(frames),
+            .pixels = {bytes, bytes + there}};
 }
 
 Loaded load(const fs::path& file) {
@@ -124,20 +134,10 @@ Loaded load(const fs::path& file) {
         refuse(file, "its DICOM elements cannot be parsed (" + std::string(parsed.text()) +
                          "); export it again");
     check_kind(data, file);
-    check_pixels(data, file);
+    Loaded object = take_pixels(data, file);
     (void)data.convertToUTF8();  // what has no known character set stays as it is
-    Uint16 rows = 0, columns = 0;
-    (void)data.findAndGetUint16(DCM_Rows, rows);
-    (void)data.findAndGetUint16(DCM_Columns, columns);
-    const Uint8* bits = nullptr;
-    unsigned long count = 0;
-    if (data.findAndGetUint8Array(DCM_PixelData, bits, &count).bad() || bits == nullptr)
-        refuse(file, "holds no pixels that can be read; export it again");
-    std::vector<std::uint8_t> pixels(bits, bits + count);
-    DcmSegmentation* loaded = nullptr;
-    const OFCondition status = DcmSegmentation::loadDataset(data, loaded);
-    Loaded object{std::unique_ptr<DcmSegmentation>(loaded), rows, columns, std::move(pixels)};
-    if (status.bad() || loaded == nullptr)
+    const OFCondition status = object.segmentation->readWithoutPixelData(data);
+    if (status.bad())
         refuse(file, "is no valid DICOM segmentation (" + std::string(status.text()) +
                          "); export it again");
     return object;
@@ -188,7 +188,7 @@ FramePlanes planes_of(const Loaded& object, const fs::path& file) {
     FramePlanes planes = plane_of(segmentation, 0, file);
     planes.rows = object.rows;
     planes.columns = object.columns;
-    for (Uint32 n = 0; n < segmentation.getNumberOfFrames(); ++n) {
+    for (Uint32 n = 0; n < object.frames; ++n) {
         if (!same_planes(plane_of(segmentation, n, file), planes))
             refuse(file, "frame " + std::to_string(n + 1) +
                              " has another orientation or pixel spacing than the first, but all "
@@ -205,11 +205,12 @@ FramePlanes planes_of(const Loaded& object, const fs::path& file) {
 }
 
 /// The numbers of each segment's frames.
-std::map<std::int32_t, std::vector<Uint32>> frames_of(DcmSegmentation& segmentation,
-                                                      const FrameGrid& grid, const fs::path& file) {
+std::map<std::int32_t, std::vector<Uint32>> frames_of(const Loaded& object, const FrameGrid& grid,
+                                                      const fs::path& file) {
+    DcmSegmentation& segmentation = *object.segmentation;
     std::map<std::int32_t, std::vector<Uint32>> frames;
     std::set<std::pair<std::int32_t, int>> seen;
-    for (Uint32 n = 0; n < segmentation.getNumberOfFrames(); ++n) {
+    for (Uint32 n = 0; n < object.frames; ++n) {
         Uint16 number = 0;
         auto& group = group_of<FGSegmentation>(segmentation, n, DcmFGTypes::EFG_SEGMENTATION,
                                                "segment number", file);
@@ -261,9 +262,8 @@ std::vector<std::uint8_t> unpacked(const std::vector<std::uint8_t>& pixels, std:
 
 LabelFile read_dicom_seg(const fs::path& file) {
     const Loaded object = load(file);
-    DcmSegmentation& segmentation = *object.segmentation;
     FrameGrid grid = find_grid(planes_of(object, file), file);
-    const auto frames = frames_of(segmentation, grid, file);
+    const auto frames = frames_of(object, grid, file);
     const std::size_t plane = static_cast<std::size_t>(grid.size[0]) * grid.size[1];
     LayerPacker packer(grid.size, file,
                        kMostVoxelsPerByte * static_cast<double>(fs::file_size(file)));
@@ -277,7 +277,7 @@ LabelFile read_dicom_seg(const fs::path& file) {
         (void)packer.add(number, runs);
     }
     LabelFile result;
-    result.layers = packer.finish(grid.index_to_lps, names_of(segmentation));
+    result.layers = packer.finish(grid.index_to_lps, names_of(*object.segmentation));
     result.warnings = std::move(grid.warnings);
     return result;
 }

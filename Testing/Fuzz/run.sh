@@ -27,6 +27,7 @@ cd "$build"
 mkdir -p found
 ./MakeSeeds seeds "$here/../../../shared/data/odd_inputs" "$here/../../../shared/data/labels"
 # What a small file may cost: a stream of 100 kB inflates to 100 MB at most, and
-# its labels take 4 bytes each. Leaks are looked for at the end.
+# its labels take 4 bytes each. libFuzzer would end with 77, too, when it finds something.
 exec ./ReadersTarget found seeds -max_total_time="$seconds" -max_len=100000 -timeout=30 \
-  -rss_limit_mb=3000 -malloc_limit_mb=1500 -print_final_stats=1 -verbosity=0 -close_fd_mask=0
+  -rss_limit_mb=3000 -malloc_limit_mb=1500 -print_final_stats=1 -verbosity=0 \
+  -error_exitcode=1
