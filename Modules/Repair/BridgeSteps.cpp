@@ -5,6 +5,7 @@
 
 #include "LevelSet/CsgMeasure.h"
 #include "LevelSet/CsgPieces.h"
+#include "LevelSet/CsgTable.h"
 #include "Repair/Bridges.h"
 #include "Repair/Steps.h"
 
@@ -106,6 +107,8 @@ Band connected(const Band& form, const Band& core) {
 struct Growth {
     const Grow& task;
     int tissue, goal;
+    int into;     ///< the tissue that receives it, or -1
+    double area;  ///< over which they touch already, mm^2
     const Surroundings& around;
     std::vector<Vec3> path;
     Ball begin, end;  ///< inside the tissue and inside its goal
@@ -115,7 +118,9 @@ struct Growth {
         levelset::Contact touch;
         MiddleLine line;
     };
-    [[nodiscard]] Result with(const std::array<double, 2>& radius, int into, Workshop& shop) const {
+    // `before` is the tissue, or as much of it as lies around the bridge.
+    [[nodiscard]] Result with(const std::array<double, 2>& radius, const Band& before,
+                              Workshop& shop) const {
         Result made;
         // Deep enough to be cut off flat, but not out at the other side.
         made.line = middle_line(path, begin, radius, std::min(radius[1], end.radius));
@@ -123,32 +128,62 @@ struct Growth {
         if (into >= 0) {
             made.form = shop.yield(into, bridge, around.givers);
         } else {
-            const double blend = task.bridge.blend >= 0 ? task.bridge.blend : 0.5 * radius[0];
-            const Band& before = shop.band(tissue);
             made.form = connected(
-                shop.yield(tissue, levelset::unite(before, bridge, blend), around.givers), before);
+                shop.yield(tissue, levelset::unite(before, bridge, blend(radius)), around.givers),
+                before);
         }
         made.touch = levelset::contact(made.form, shop.band(goal));
         return made;
     }
+    [[nodiscard]] Result with(const std::array<double, 2>& radius, Workshop& shop) const {
+        return with(radius, shop.band(tissue), shop);
+    }
+    [[nodiscard]] double blend(const std::array<double, 2>& radius) const {
+        return task.bridge.blend >= 0 ? task.bridge.blend : 0.5 * radius[0];
+    }
+    // The area with these radii, from the neighbourhood of the bridge alone.
+    [[nodiscard]] double touched(const std::array<double, 2>& radius, Workshop& shop) const {
+        if (into >= 0) return with(radius, shop).touch.area;
+        Box box;
+        for (const Vec3& p : path) box.include(p);
+        box.include(begin.centre);
+        const Vec3 margin = Vec3::Constant(2 * std::max(radius[0], radius[1]) + blend(radius) +
+                                           2 * levelset::kCsgWidth * shop.spacing());
+        const Band before =
+            levelset::cropped(shop.band(tissue), {box.min - margin, box.max + margin});
+        const double elsewhere = area - levelset::contact(before, shop.band(goal)).area;
+        return with(radius, before, shop).touch.area + elsewhere;
+    }
 };
 
-// Widens the end until it touches over the area asked for.
-Growth::Result grown_enough(const Growth& growth, std::array<double, 2> radius, int into,
-                            Workshop& shop) {
-    constexpr int kTrials = 8;
-    constexpr double kWider = 1.15;
-    const double over = growth.task.over;
-    Growth::Result made = growth.with(radius, into, shop);
-    for (int trial = 0; trial < kTrials && made.touch.area < over; ++trial) {
-        radius[1] *= kWider;
-        made = growth.with(radius, into, shop);
+// Widens the end until it touches over the area asked for, and little more.
+Growth::Result grown_enough(const Growth& growth, std::array<double, 2> radius, Workshop& shop) {
+    constexpr double kWider = 1.3, kWidest = 6;  // a step, and in all
+    constexpr int kHalvings = 3;
+    const double over = growth.task.over, widest = kWidest * radius[1];
+    if (over > 0) {
+        double low = radius[1], high = low;
+        const auto enough = [&](double end) {
+            return growth.touched({radius[0], end}, shop) >= over;
+        };
+        if (!enough(high)) {
+            do {
+                low = high;
+                high *= kWider;
+            } while (high < widest && !enough(high));
+            for (int i = 0; i < kHalvings; ++i) {
+                const double middle = 0.5 * (low + high);
+                (enough(middle) ? high : low) = middle;
+            }
+        }
+        radius[1] = high;
     }
+    Growth::Result made = growth.with(radius, shop);
     if (made.touch.area > 0 && made.touch.area >= over) return made;
     shop.refuse("'" + shop.name(growth.tissue) + "' would touch '" + shop.name(growth.goal) +
                 "' over " + mm(made.touch.area) + " mm^2 only, " + mm(over) +
-                " are asked for; give 'radius' a larger second number, name tissues that may " +
-                "give way in takes_from, or ask for less with 'over'");
+                " are asked for; name tissues that may give way in takes_from, choose another "
+                "place with 'to', or ask for less with 'over'");
 }
 
 std::string describe(const Growth::Result& made, const std::string& across, int goal,
@@ -179,16 +214,14 @@ void run(const Grow& task, Workshop& shop) {
     // Where they touch already, that place is made wider.
     if (now.area > 0 && !search.begin) search.begin = now.centre;
     const Route route = require_route(search, around, shop);
-    Growth growth{task, tissue, goal, around, route.points, {}, {}};
+    const int into = task.into ? shop.add(*task.into) : -1;
+    Growth growth{task, tissue, goal, into, now.area, around, route.points, {}, {}};
     growth.begin = ball_near(shop.band(tissue), growth.path.front(), kLocal);
     growth.end = ball_near(shop.band(goal), growth.path.back(), kLocal);
     std::array<double, 2> radius;
     radius[0] = thickness(task.bridge.radius[0], growth.begin, shop);
-    radius[1] = task.bridge.radius[1] > 0
-                    ? task.bridge.radius[1]
-                    : std::max(radius[0], std::sqrt(task.over / 3.14159265358979));
-    const int into = task.into ? shop.add(*task.into) : -1;
-    Growth::Result made = grown_enough(growth, radius, into, shop);
+    radius[1] = task.bridge.radius[1] > 0 ? task.bridge.radius[1] : radius[0];
+    Growth::Result made = grown_enough(growth, radius, shop);
     const std::string across = now.area > 0 ? "where they touched over " + mm(now.area) + " mm^2"
                                             : "across a gap of " + mm(route.length) + " mm";
     const std::string note = describe(made, across, goal, shop);

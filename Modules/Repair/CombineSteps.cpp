@@ -26,6 +26,16 @@ levelset::Distance inside_planes(const std::vector<Plane>& planes, const Frame& 
     };
 }
 
+// Planes leave a box alone when they leave its corners.
+bool lies_within(const Box& box, const levelset::Distance& planes) {
+    for (int corner = 0; corner < 8; ++corner)
+        if (planes(Vec3(corner & 1 ? box.max.x() : box.min.x(),
+                        corner & 2 ? box.max.y() : box.min.y(),
+                        corner & 4 ? box.max.z() : box.min.z())) > 0)
+            return false;
+    return true;
+}
+
 Box grown(Box box, double by) {
     box.min -= Vec3::Constant(by);
     box.max += Vec3::Constant(by);
@@ -132,6 +142,10 @@ void run(const Clip& task, Workshop& shop) {
         inside_planes(shop.scene().field_of_view, shop.scene().frame, task.margin);
     for (const int tissue : shop.find_all(task.tissues)) {
         const Band& whole = shop.band(tissue);
+        if (lies_within(grown(levelset::inside_box(whole), shop.spacing()), distance)) {
+            shop.replace(tissue, whole);
+            continue;
+        }
         const Box box = grown(levelset::inside_box(whole), 4 * Band::kSide * shop.spacing());
         const Band view = levelset::sample_solid(distance, box, shop.lattice());
         shop.replace(tissue, levelset::intersect(whole, view));

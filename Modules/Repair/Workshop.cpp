@@ -72,6 +72,17 @@ void Workshop::begin(const Step& step) {
 void Workshop::end() {
     for (std::size_t t = 0; t < states_.size(); ++t)
         if (!scene_.tissues[t].changed) states_[t].band.reset();
+    if (const std::size_t count = done_.size(); count > 1) {
+        std::erase_if(done_, [](const StepReport& r) { return r.added == 0 && r.removed == 0; });
+        if (done_.empty())
+            done_.push_back({step_->number, step_->what, std::to_string(count) + " tissues", 0, 0,
+                             "nothing changed"});
+    }
+    for (StepReport& report : done_) {
+        progress_.note(to_sentence(report));
+        log.push_back(std::move(report));
+    }
+    done_.clear();
 }
 
 void Workshop::refuse(const std::string& why) const { refuse_step(recipe_, *step_, why); }
@@ -186,8 +197,7 @@ void Workshop::absorb(int tissue) {
 }
 
 void Workshop::record(int tissue, double added, double removed, const std::string& note) {
-    log.push_back({step_->number, step_->what, name(tissue), added, removed, note});
-    progress_.note(to_sentence(log.back()));
+    done_.push_back({step_->number, step_->what, name(tissue), added, removed, note});
 }
 
 void Workshop::settle_into(Tissue& tissue, const Band& whole) {

@@ -17,7 +17,8 @@ public:
     Workshop(const Recipe& recipe, Scene& scene, ProgressSink& progress);
 
     void begin(const Step& step);
-    /// Forgets bands of tissues that no step has changed.
+    /// Forgets bands of tissues that no step has changed, and tells what the step
+    /// did; of several tissues only those that it changed.
     void end();
     /// Gives changed tissues their regions.
     void finish();
@@ -66,6 +67,7 @@ private:
     ProgressSink& progress_;
     levelset::CsgLattice lattice_;
     std::vector<State> states_;
+    std::vector<StepReport> done_;  ///< by the current step
     const Step* step_ = nullptr;
 };
 
