@@ -9,8 +9,10 @@
 #include "Core/Errors.h"
 #include "LevelSet/Band.h"
 #include "LevelSet/Flow.h"
+#include "LevelSet/HealBand.h"
 #include "LevelSet/Redistance.h"
 #include "LevelSet/SurfaceBand.h"
+#include "LevelSet/WindingTree.h"
 
 namespace myotet::levelset {
 namespace {
@@ -35,9 +37,15 @@ std::string text(const Vec3& p) {
     return out.str();
 }
 
-// A surface is closed when every edge is walked as often one way as the other.
-// An inside-out or crossing surface passes; a hole or a flipped triangle fails.
-void require_closed(const TriMesh& surface) {
+// Edges that are not walked as often one way as the other, and where one lies.
+struct OpenEdges {
+    std::size_t count = 0;
+    Vec3 place = Vec3::Zero();
+};
+
+// A surface is closed when it has none. An inside-out or crossing surface is
+// closed; a hole or a flipped triangle opens it.
+OpenEdges find_open_edges(const TriMesh& surface) {
     std::vector<EdgeUse> uses;
     uses.reserve(3 * surface.triangles.size());
     for (const Triangle& t : surface.triangles)
@@ -48,24 +56,47 @@ void require_closed(const TriMesh& surface) {
     std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
         return a.low != b.low ? a.low < b.low : a.high < b.high;
     });
-    std::size_t open = 0;
-    Vec3 where = Vec3::Zero();
+    OpenEdges open;
     for (std::size_t i = 0; i < uses.size();) {
         int balance = 0;
         std::size_t end = i;
         for (; end < uses.size() && uses[end].low == uses[i].low && uses[end].high == uses[i].high;
              ++end)
             balance += uses[end].direction;
-        if (balance != 0 && open++ == 0)
-            where = 0.5 * (surface.points[uses[i].low] + surface.points[uses[i].high]);
+        if (balance != 0 && open.count++ == 0)
+            open.place = 0.5 * (surface.points[uses[i].low] + surface.points[uses[i].high]);
         i = end;
     }
-    if (open > 0)
-        throw InputError("the surface is not closed: " + std::to_string(open) +
-                         " edges are not walked once each way by two triangles, one of them at " +
-                         text(where) +
-                         "; close its holes, merge its double points and orient its "
-                         "triangles alike");
+    return open;
+}
+
+[[noreturn]] void refuse_open(const OpenEdges& open) {
+    throw InputError("the surface is not closed: " + std::to_string(open.count) +
+                     " edges are not walked once each way by two triangles, one of them at " +
+                     text(open.place) +
+                     "; let --heal guess what it encloses, or close its holes, merge its double "
+                     "points and orient its triangles alike");
+}
+
+void warn_of_crossings(const HealSummary& summary, ProgressSink& progress) {
+    if (summary.crossing_pairs == 0) return;
+    progress.warn("the surface crosses itself: " + std::to_string(summary.crossing_pairs) +
+                  (summary.crossing_pairs == 1 ? " pair" : " pairs") +
+                  " of triangles; what cannot be reached from outside is taken as inside");
+}
+
+// A closed surface by its triangles alone, an open one by its winding number.
+Band exact_band(const TriMesh& surface, const SurfaceOptions& options, HealSummary& summary,
+                ProgressSink& progress) {
+    const OpenEdges open = find_open_edges(surface);
+    if (open.count > 0 && !options.heal) refuse_open(open);
+    summary.crossing_pairs = count_crossing_pairs(build_winding_tree(surface));
+    if (open.count == 0) {
+        warn_of_crossings(summary, progress);
+        return surface_band(surface, options.spacing, kExactWidth, progress);
+    }
+    return healed_band(orient_surface(surface, summary), options.spacing, kExactWidth, summary,
+                       progress);
 }
 
 void require_valid(const TriMesh& surface) {
@@ -81,7 +112,6 @@ void require_valid(const TriMesh& surface) {
                 throw InputError("point " + std::to_string(v) +
                                  " of the surface is not a finite position; repair the file");
         }
-    require_closed(surface);
 }
 
 // Bricks follow the area, the coarse field the box.
@@ -124,15 +154,17 @@ void SurfaceOptions::validate() const {
     require(max_memory > 0, "max_memory", max_memory, "a positive number of bytes");
 }
 
-LevelSet from_surface(const TriMesh& surface, const SurfaceOptions& options,
-                      ProgressSink& progress) {
+LevelSet from_surface(const TriMesh& surface, const SurfaceOptions& options, ProgressSink& progress,
+                      HealSummary* summary) {
     options.validate();
     require_valid(surface);
     require_memory(surface, options);
     progress.report("distances", 0);
     // OpenVDB's values are exact next to the surface and drift by up to a
     // quarter of the spacing two samples away; ours hold to the band's edge.
-    Band band = surface_band(surface, options.spacing, kExactWidth, progress);
+    HealSummary found;
+    Band band = exact_band(surface, options, found, progress);
+    if (summary) *summary = found;
     band = refit(band, static_cast<float>(kHalfWidth * options.spacing));
     redistance(band, Seeds::keep_ends, 2);
     if (options.smooth > 0) {
