@@ -95,12 +95,12 @@ double thickness(double wished, const Ball& ball, const Workshop& shop) {
 // Pieces of `form` that hold nothing of `core` are taken away: what other
 // tissues cut off from it.
 Band connected(const Band& form, const Band& core) {
-    const Band settled = levelset::settle(form);
-    const levelset::Pieces pieces = levelset::find_pieces(settled, levelset::Side::inside);
-    std::vector<char> loose = levelset::pieces_meeting(settled, pieces, core);
+    const Band whole = levelset::framed(form, 1);
+    const levelset::Pieces pieces = levelset::find_pieces(whole, levelset::Side::inside);
+    std::vector<char> loose = levelset::pieces_meeting(whole, pieces, core);
     for (char& mark : loose) mark = !mark;
     if (std::count(loose.begin(), loose.end(), 1) == 0) return form;
-    return levelset::flip_pieces(settled, pieces, loose);
+    return levelset::flip_pieces(whole, pieces, loose);
 }
 
 // One way of growing, from the route on.
@@ -267,7 +267,7 @@ Band bridged(const Join& task, int tissue, const Band& band, const levelset::Pie
 
 void run(const Join& task, Workshop& shop) {
     const int tissue = shop.find(task.tissue);
-    Band form = levelset::settle(shop.band(tissue));
+    Band form = levelset::framed(shop.band(tissue), 1);
     levelset::Pieces pieces = levelset::find_pieces(form, levelset::Side::inside);
     if (pieces.volume.size() < 2) {
         shop.replace(tissue, shop.band(tissue), {}, "is one piece already");
@@ -277,7 +277,7 @@ void run(const Join& task, Workshop& shop) {
     while (pieces.volume.size() > 1) {
         const std::size_t before = pieces.volume.size();
         shop.progress().check();
-        form = levelset::settle(bridged(task, tissue, form, pieces, shop, note));
+        form = levelset::framed(bridged(task, tissue, form, pieces, shop, note), 1);
         pieces = levelset::find_pieces(form, levelset::Side::inside);
         if (pieces.volume.size() >= before)
             shop.refuse("other tissues cut the bridge between two pieces of '" + task.tissue +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdio>
 
 #include "Core/Errors.h"
 #include "LevelSet/CsgMeasure.h"
@@ -51,6 +52,15 @@ Band solid_band(const Solid& solid, const Box& domain, Workshop& shop) {
     return levelset::sample_solid(placed.distance, placed.box, shop.lattice());
 }
 
+void tell_guess(const std::filesystem::path& file, const levelset::HealSummary& healed,
+                Workshop& shop) {
+    char text[128];
+    std::snprintf(
+        text, sizeof text, ": %lld holes were closed by a guess, %.3g mm^2 or %.2g %% of it",
+        static_cast<long long>(healed.holes), healed.guessed_area, 100 * healed.guessed_share);
+    shop.progress().warn(file.string() + text);
+}
+
 Band surface_band(const SurfaceFile& surface, Workshop& shop) {
     std::filesystem::path file = surface.file;
     if (file.is_relative()) file = shop.recipe().file.parent_path() / file;
@@ -62,12 +72,17 @@ Band surface_band(const SurfaceFile& surface, Workshop& shop) {
     }
     levelset::SurfaceOptions options;
     options.spacing = shop.spacing();
+    options.heal = surface.heal;
+    levelset::HealSummary healed;
     try {
-        const levelset::LevelSet phi = levelset::from_surface(mesh, options, shop.progress());
+        const levelset::LevelSet phi =
+            levelset::from_surface(mesh, options, shop.progress(), &healed);
+        if (healed.guessed_area > 0) tell_guess(file, healed, shop);
         return levelset::sample_solid([&](const Vec3& p) { return phi.value(p); }, box,
                                       shop.lattice());
     } catch (const InputError& e) {
-        shop.refuse(file.string() + ": " + e.what());
+        shop.refuse(file.string() + ": " + e.what() +
+                    (surface.heal ? "" : " (in a recipe, 'heal: true' beside 'surface')"));
     }
 }
 

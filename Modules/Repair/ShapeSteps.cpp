@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "LevelSet/CsgPieces.h"
+#include "LevelSet/CsgTable.h"
 #include "Repair/Steps.h"
 
 namespace myotet::repair {
@@ -31,7 +32,7 @@ void flip(int tissue, const Pieces& pieces, const std::vector<char>& marked,
         shop.replace(tissue, shop.band(tissue), {}, note);
         return;
     }
-    Band form = levelset::flip_pieces(levelset::settle(shop.band(tissue)), pieces, marked);
+    Band form = levelset::flip_pieces(levelset::framed(shop.band(tissue), 1), pieces, marked);
     if (!islands) form = shop.yield(tissue, form, givers);
     shop.replace(tissue, std::move(form), givers, note);
 }
@@ -50,7 +51,7 @@ void run(const Reshape& task, Workshop& shop) {
 void run(const KeepLargest& task, Workshop& shop) {
     for (const int tissue : shop.find_all(task.tissues)) {
         const Pieces pieces =
-            levelset::find_pieces(levelset::settle(shop.band(tissue)), levelset::Side::inside);
+            levelset::find_pieces(levelset::framed(shop.band(tissue), 1), levelset::Side::inside);
         std::vector<char> marked(pieces.volume.size(), 1);
         for (std::size_t p = 0; p < std::min(marked.size(), std::size_t(task.count)); ++p)
             marked[p] = 0;
@@ -61,7 +62,7 @@ void run(const KeepLargest& task, Workshop& shop) {
 void run(const DropIslands& task, Workshop& shop) {
     for (const int tissue : shop.find_all(task.tissues)) {
         const Pieces pieces =
-            levelset::find_pieces(levelset::settle(shop.band(tissue)), levelset::Side::inside);
+            levelset::find_pieces(levelset::framed(shop.band(tissue), 1), levelset::Side::inside);
         std::vector<char> marked(pieces.volume.size(), 0);
         for (std::size_t p = 0; p < marked.size(); ++p) marked[p] = pieces.volume[p] < task.under;
         flip(tissue, pieces, marked, {}, shop);
@@ -72,7 +73,7 @@ void run(const FillCavities& task, Workshop& shop) {
     const std::vector<int> givers = shop.find_all(task.takes_from);
     for (const int tissue : shop.find_all(task.tissues)) {
         const Pieces pieces =
-            levelset::find_pieces(levelset::settle(shop.band(tissue)), levelset::Side::outside);
+            levelset::find_pieces(levelset::framed(shop.band(tissue), 1), levelset::Side::outside);
         std::vector<char> marked(pieces.volume.size(), 0);
         for (std::size_t p = 1; p < marked.size(); ++p) marked[p] = pieces.volume[p] < task.under;
         flip(tissue, pieces, marked, givers, shop);

@@ -7,6 +7,7 @@
 #include "Core/Errors.h"
 #include "LevelSet/CsgMeasure.h"
 #include "LevelSet/CsgPieces.h"
+#include "LevelSet/CsgTable.h"
 #include "LevelSet/Measure.h"
 #include "Repair/Fields.h"
 

@@ -145,6 +145,15 @@ TEST(CombineSteps, clip_needs_a_field_of_view) {
     EXPECT_THAT(test::refusal(two(), "  - clip: muscle\n"), HasSubstr("no field of view"));
 }
 
+TriMesh cube(const Vec3& middle, double half) {
+    TriMesh mesh;
+    for (int c = 0; c < 8; ++c)
+        mesh.points.push_back(middle + half * Vec3(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1));
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return mesh;
+}
+
 TEST(CombineSteps, a_surface_is_placed_in_the_patient_s_frame) {
     Frame frame;
     frame.rotation = Mat3(Eigen::AngleAxisd(0.4, Vec3(1, 1, 0).normalized()));
@@ -153,18 +162,27 @@ TEST(CombineSteps, a_surface_is_placed_in_the_patient_s_frame) {
     const Vec3 middle = frame.to_lps(Vec3(30, 30, 34));
     scene.read_surface = [&](const std::filesystem::path& file) {
         EXPECT_EQ(file.filename(), "cube.stl");
-        TriMesh cube;
-        for (int c = 0; c < 8; ++c)
-            cube.points.push_back(middle +
-                                  4 * Vec3(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1));
-        cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-        return cube;
+        return cube(middle, 4);
     };
     const auto summary =
         test::repaired(scene, "  - difference: muscle\n    with: {surface: cube.stl}\n");
     // Turned, all of the cube of 8 mm but tips lies in the ball.
     EXPECT_NEAR(summary.steps[0].removed, 512, kEdge * 12 * 8);
+}
+
+TEST(CombineSteps, a_cracked_surface_needs_heal) {
+    test::Scene scene = two();
+    scene.read_surface = [&](const std::filesystem::path&) {
+        TriMesh open = cube(Vec3(30, 30, 30), 5);
+        open.triangles.pop_back();
+        return open;
+    };
+    const std::string step = "  - intersection: muscle\n    with: {surface: cube.stl";
+    EXPECT_THAT(test::refusal(scene, step + "}\n"),
+                AllOf(HasSubstr("step 1"), HasSubstr("cube.stl"), HasSubstr("'heal: true'")));
+    test::repaired(scene, step + ", heal: true}\n");
+    // The hole, half a side, is closed by a surface that bulges: a tenth of the cube.
+    EXPECT_NEAR(test::volume_of(scene, "muscle"), 1000, 100);
 }
 
 TEST(CombineSteps, a_surface_without_a_reader_is_refused) {
