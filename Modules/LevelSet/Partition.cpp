@@ -74,10 +74,11 @@ Part inside_parts(const Patch& phi, double sample_volume) {
     return part;
 }
 
-// What the seams of a place add to that, for each of its regions.
-void add_seams(const PlaceValues& values, double spacing, std::span<Part> extra) {
+// What the seams of a place add to that, for each of its regions; whether there
+// are any.
+bool add_seams(const PlaceValues& values, double spacing, std::span<Part> extra) {
     std::fill(extra.begin(), extra.end(), Part{});
-    if (values.count < 3) return;
+    if (values.count < 3) return false;
     const double sample_volume = std::pow(spacing, 3);
     PlaceSeams seams;
     find_seams(values, spacing, seams);
@@ -93,6 +94,7 @@ void add_seams(const PlaceValues& values, double spacing, std::span<Part> extra)
                                                     inside_fraction(corners_at(phi, i, j, k))));
         }
     }
+    return !seams.cells.empty();
 }
 
 // The measured volumes, those of the seams apart: these take longer to find,
@@ -100,6 +102,7 @@ void add_seams(const PlaceValues& values, double spacing, std::span<Part> extra)
 struct Volumes {
     std::vector<Part> part, extra;  // as Places::region
     std::vector<char> speck;        // per region
+    std::vector<char> seamed;       // per place: may have seams
 
     [[nodiscard]] float at(std::size_t n, int c) const { return part[n][c] + extra[n][c]; }
 };
@@ -117,10 +120,10 @@ void measure_seams(const std::vector<RegionBand>& regions, const Places& places,
         PlaceValues values;
         for (std::size_t p = first; p < last; ++p) {
             const Place& place = places.places[p];
-            if (place.last - place.first < 3) continue;
+            if (place.last - place.first < 3 || !volumes.seamed[p]) continue;
             load_place(regions, places, place, offset, 1, values);
-            add_seams(values, regions[0].band.spacing,
-                      std::span(volumes.extra).subspan(place.first, values.count));
+            const auto extra = std::span(volumes.extra).subspan(place.first, values.count);
+            volumes.seamed[p] = add_seams(values, regions[0].band.spacing, extra);
         }
     });
 }
@@ -317,7 +320,8 @@ PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMa
     summary.offset.assign(regions.size(), 0.0);
     const std::size_t count = places.region.size();
     Volumes volumes{std::vector<Part>(count), std::vector<Part>(count),
-                    find_specks(wanted.total, lattice.spacing)};
+                    find_specks(wanted.total, lattice.spacing),
+                    std::vector<char>(places.places.size(), 1)};
     measure_seams(regions, places, summary.offset, volumes);
     for (int round = 0; round < (wanted.cells.empty() ? 0 : kRestoring); ++round) {
         progress.check();
@@ -326,8 +330,7 @@ PartitionSummary make_partition(std::vector<RegionBand>& regions, const RegionMa
     // Until the totals hold with the seams as they now are.
     for (int pass = 0; pass < kMostPasses; ++pass) {
         progress.check();
-        if (pass > 0 || !wanted.cells.empty())
-            measure_seams(regions, places, summary.offset, volumes);
+        if (pass > 0) measure_seams(regions, places, summary.offset, volumes);
         const int moves =
             match_totals(regions, places, walls, wanted.total,
                          std::vector<char>(regions.size(), pass == 0), volumes, summary);
