@@ -13,8 +13,11 @@ constexpr double kFar = 1e9;
 constexpr int kMargin = 4;  // pixels around sections that have a distance of their own
 // Volume of half a slice under 1 - gamma t^2: 2 / (3 sqrt(gamma)) = 1 / 2.
 constexpr double kBlunt = 16.0 / 9.0;
-// The steepest shrinking that a cap goes on with: its tip is a tenth of a slice off.
-constexpr double kSteepest = 10;
+// The steepest shrinking that a cap goes on with: a tip that the last slice only touches.
+constexpr double kSteepest = 100;
+// The steepest slope at a slice, in rises to the next: an ellipsoid's last one
+// has about twice, and up to three times the cubic does not swing beyond its ends.
+constexpr double kSteep = 2;
 // Sections that share less than this part of the smaller one are met along
 // their own direction; those that share kWell or more straight across.
 constexpr double kPoorly = 0.4, kWell = 0.8;
@@ -206,7 +209,7 @@ Point2 moved(const Point2& p, const Point2& shift, double times) {
 
 // Keeps the cubic from swinging beyond its ends by more than a sixth of a pixel.
 double limited(double slope, double rise, double pixel) {
-    const double most = slope * rise > 0 ? 3 * std::abs(rise) : std::abs(rise) + pixel;
+    const double most = slope * rise > 0 ? kSteep * std::abs(rise) : std::abs(rise) + pixel;
     return std::clamp(slope, -most, most);
 }
 
@@ -254,12 +257,14 @@ SliceCap cap_of(double squared, double before, double before_that) {
     SliceCap cap;
     if (before > squared) {
         const double last = (before - squared) / squared;
+        double bend = before_that > 0 ? last - (before_that - before) / squared : 0;
+        bend = std::clamp(bend, -last, last);
         // The slope at the section itself lies half a slice further on.
-        const double bend = before_that > 0 ? last - (before_that - before) / squared : 0;
-        cap.beta = last + std::clamp(0.5 * bend, -0.5 * last, 0.5 * last);
-        cap.beta = std::min(cap.beta, kSteepest);
+        cap.beta = std::min(last + 0.5 * bend, kSteepest);
+        cap.gamma = std::max(0.0, 0.5 * bend);
     }
-    cap.gamma = kBlunt * std::max(0.0, 1 - cap.beta);
+    // What would have reached the next slice, which is empty, ends bluntly.
+    if (cap.beta + cap.gamma < 1) cap.gamma = kBlunt * (1 - cap.beta);
     return cap;
 }
 

@@ -16,7 +16,7 @@ struct SliceCap {
     double beta = 0, gamma = 0;
     /// 1 - r / r_0 at t; beyond the tip it goes on growing.
     [[nodiscard]] double shrunk(double t) const;
-    /// Where r is 0; from a tenth of a slice up to one.
+    /// Where r is 0; one slice at the most.
     [[nodiscard]] double end() const;
 };
 
