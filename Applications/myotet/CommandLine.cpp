@@ -46,6 +46,9 @@ void add_scan_options(CLI::App& command, ScanOptions& options) {
         .add_option("--input-unit", options.input_unit,
                     "what a surface file's numbers mean: mm, cm or m (default: mm)")
         ->check(CLI::IsMember({"mm", "cm", "m"}));
+    command.add_flag("--heal", options.heal,
+                     "close cracks and holes of a surface file by winding numbers, and say how "
+                     "much was guessed (default: an open surface is refused)");
 }
 
 void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {

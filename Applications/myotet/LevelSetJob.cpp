@@ -20,12 +20,12 @@ namespace {
 
 using levelset::Region;
 
-// Samples along the cube root of a surface's volume, where none are asked for.
-constexpr double kSamplesAcross = 100;
+// Samples along the square root of a surface's area, where none are asked for.
+constexpr double kSamplesAcross = 200;
 
 LevelSetChoices with_spacing(LevelSetChoices choices, const Scan& scan) {
     if (scan.surface && !(choices.spacing > 0))
-        choices.spacing = std::cbrt(scan.tissues.front().volume) / kSamplesAcross;
+        choices.spacing = std::sqrt(scan.tissues.front().area) / kSamplesAcross;
     return choices;
 }
 

@@ -8,6 +8,7 @@
 #include "Core/Errors.h"
 #include "ExitCodes.h"
 #include "LevelSet/FromSurface.h"
+#include "LevelSet/Measure.h"
 #include "MeshFiles/MeshFiles.h"
 
 namespace myotet::app {
@@ -16,22 +17,31 @@ namespace {
 using levelset::LabelLevelSets;
 using levelset::Region;
 
-LabelLevelSets sets_of_surface(const Scan& scan, const LevelSetChoices& choices,
-                               ProgressSink& progress) {
-    LabelLevelSets sets;
-    sets.spacing = choices.spacing;
-    sets.smooth = std::max(0.0, choices.smooth);
+TissueSets set_of_surface(const Scan& scan, const LevelSetChoices& choices,
+                          ProgressSink& progress) {
+    TissueSets made;
+    made.tissues = asked_tissues(scan);
+    made.sets.spacing = choices.spacing;
+    made.sets.smooth = std::max(0.0, choices.smooth);
     Region region;
     region.label = scan.tissues.front().label;
-    region.volume_labels = scan.tissues.front().volume;
+    levelset::HealSummary healing;
     try {
         region.phi = levelset::from_surface(
-            *scan.surface, {.spacing = sets.spacing, .smooth = sets.smooth}, progress);
+            *scan.surface,
+            {.spacing = choices.spacing, .smooth = made.sets.smooth, .heal = scan.heal}, progress,
+            &healing);
     } catch (const InputError& error) {  // which does not know the file
         throw InputError(scan.input.string() + ": " + error.what());
     }
-    sets.regions.push_back(std::move(region));
-    return sets;
+    region.volume_level_set = levelset::enclosed_volume(region.phi);
+    region.inscribed_radius = levelset::inscribed_radius(region.phi);
+    if (scan.heal) made.healing = healing;
+    // What an open surface encloses is known by its healing alone.
+    if (healing.open_edges > 0) made.tissues.front().volume = region.volume_level_set;
+    region.volume_labels = made.tissues.front().volume;
+    made.sets.regions.push_back(std::move(region));
+    return made;
 }
 
 std::vector<std::int32_t> values_in(const std::vector<Tissue>& tissues, int layer) {
@@ -133,9 +143,9 @@ TissueSets make_level_sets(const Scan& scan, const LevelSetChoices& choices,
     if (scan.surface && !choices.repair.empty())
         throw UsageError("--repair: " + scan.input.string() +
                          " is a surface; a recipe works on the tissues of a label file");
-    if (!choices.repair.empty()) return repaired_sets(scan, choices, progress);
-    if (!scan.surface) return sets_of_labels(scan, choices, progress);
-    return {sets_of_surface(scan, choices, progress), asked_tissues(scan), {}};
+    if (scan.surface) return set_of_surface(scan, choices, progress);
+    return choices.repair.empty() ? sets_of_labels(scan, choices, progress)
+                                  : repaired_sets(scan, choices, progress);
 }
 
 }  // namespace myotet::app

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "Core/Progress.h"
 #include "LevelSet/FromLabels.h"
+#include "LevelSet/HealSurface.h"
 #include "Repair/Apply.h"
 #include "Scan.h"
 
@@ -22,8 +24,9 @@ struct LevelSetChoices {
 /// The tissues that results are made of.
 struct TissueSets {
     levelset::LabelLevelSets sets;
-    std::vector<Tissue> tissues;             ///< by layer and label
-    std::vector<repair::StepReport> repair;  ///< what each step of a recipe did
+    std::vector<Tissue> tissues;                   ///< by layer and label
+    std::optional<levelset::HealSummary> healing;  ///< of a surface that was to be healed
+    std::vector<repair::StepReport> repair;        ///< what each step of a recipe did
 };
 
 [[nodiscard]] inline bool belongs(const levelset::Region& region, const Tissue& tissue) {

@@ -34,6 +34,7 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
 
     Scan scan = read(options, progress);
     meshing::Options sizes = choose_sizes(options.sizes, scan);
+    sizes.compression = options.compression;
     sizes.validate();
     const Forecast expected = forecast(sizes, scan);
     require_room_for(expected, available_memory());

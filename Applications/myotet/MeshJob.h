@@ -18,7 +18,7 @@ struct JobOptions {
     std::filesystem::path output;  ///< folder
     SizeOptions sizes;
     LevelSetChoices level_sets;
-    std::string compress = "optimization";
+    std::vector<meshing::Compression> compression = {meshing::Compression::optimization};
     int threads = 0;  ///< 0: as many as the process may use
 };
 

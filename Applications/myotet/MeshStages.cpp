@@ -11,6 +11,16 @@
 namespace myotet::app {
 namespace {
 
+std::string to_text(const std::vector<meshing::Compression>& compression) {
+    std::string text;
+    for (const meshing::Compression kind : compression)
+        text += std::string(text.empty() ? "" : ",") +
+                (kind == meshing::Compression::springs ? "springs"
+                 : kind == meshing::Compression::fem   ? "fem"
+                                                       : "optimization");
+    return text;
+}
+
 double count_tets(const std::vector<TissueMesh>& tissues) {
     double count = 0;
     for (const TissueMesh& tissue : tissues) count += static_cast<double>(tissue.mesh.tets.size());
@@ -21,7 +31,7 @@ double count_tets(const std::vector<TissueMesh>& tissues) {
 void count_surface_pieces(const Scan& scan, std::vector<TissueMesh>& tissues) {
     if (!scan.surface) return;
     TissueReport& report = tissues.front().report;
-    report.components_in = scan.shells;
+    report.components_in = scan.shells > 0 ? scan.shells : report.components_out;
     if (report.components_out < scan.shells)
         report.notes.push_back(counted(scan.shells - report.components_out, "closed piece") +
                                " of the surface within another, touching one or too small to be "
@@ -81,7 +91,7 @@ RunReport describe_run(const JobOptions& options, const Scan& scan, const meshin
     RunReport report;
     report.run = describe_level_sets(options.scan, options.level_sets, scan, sets);
     report.run.output = options.output.string();
-    report.run.options_text.emplace_back("compress", options.compress);
+    report.run.options_text.emplace_back("compress", to_text(options.compression));
     const std::initializer_list<std::pair<std::string, double>> numbers = {
         {"tets", options.sizes.tets > 0 ? static_cast<double>(options.sizes.tets) : NAN},
         {"edge_length_mm", sizes.edge_length},

@@ -78,6 +78,18 @@ Json gaps_json(const std::optional<levelset::GapReport>& g) {
             {"gained_voxels", gained}};
 }
 
+Json healing_json(const std::optional<levelset::HealSummary>& h) {
+    if (!h) return nullptr;
+    return {{"open_edges", h->open_edges},
+            {"holes", h->holes},
+            {"doubled_triangles", h->doubled_triangles},
+            {"turned_triangles", h->turned_triangles},
+            {"crossing_pairs", h->crossing_pairs},
+            {"guessed_area_mm2", h->guessed_area},
+            {"guessed_share", h->guessed_share},
+            {"doubtful_share", h->doubtful_share}};
+}
+
 Json repair_json(const std::vector<repair::StepReport>& steps) {
     Json list = Json::array();
     for (const repair::StepReport& s : steps)
@@ -100,6 +112,7 @@ Json run_json(const RunFacts& run) {
             {"units", "mm"},
             {"options", options_json(run)},
             {"gaps", gaps_json(run.gaps)},
+            {"healing", healing_json(run.healing)},
             {"repair", repair_json(run.repair)},
             {"threads", run.threads},
             {"peak_memory_bytes", run.peak_memory},

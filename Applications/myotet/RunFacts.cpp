@@ -30,6 +30,7 @@ RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& 
     facts.options_number = {{"smooth_mm", sets.sets.smooth},
                             {"level_set_spacing_mm", sets.sets.spacing}};
     facts.gaps = scan.gaps;
+    facts.healing = sets.healing;
     facts.repair = sets.repair;
     facts.threads = thread_count();
     facts.warnings = scan.warnings;

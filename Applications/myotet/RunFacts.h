@@ -18,6 +18,7 @@ struct RunFacts {
     std::vector<std::pair<std::string, double>> options_number;
     std::vector<std::int32_t> labels;
     std::optional<levelset::GapReport> gaps;
+    std::optional<levelset::HealSummary> healing;
     std::vector<repair::StepReport> repair;
     int threads = 0;
     double peak_memory = 0;  ///< bytes

@@ -100,6 +100,9 @@ std::optional<levelset::GapReport> treat_gaps(std::vector<LabelVolume>& layers,
 }
 
 Scan read_label_scan(const ScanOptions& options) {
+    if (options.heal)
+        throw UsageError("--heal: " + options.input.string() +
+                         " is a label file; healing is for surfaces, see --repair for labels");
     if (!options.input_unit.empty())
         throw UsageError("--input-unit: " + options.input.string() +
                          " is a label file, which says its unit itself; leave the option out");
@@ -139,8 +142,9 @@ Scan read_surface_scan(const ScanOptions& options) {
         throw UsageError("--labels, --names and --close-gaps: " + options.input.string() +
                          " is a surface, which is one tissue; leave the options out");
     Scan scan;
+    scan.heal = options.heal;
     scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
-    scan.shells = count_outward_shells(*scan.surface);
+    if (!options.heal) scan.shells = count_outward_shells(*scan.surface);
     scan.tissues = {{0,
                      1,
                      options.input.stem().string(),
@@ -151,7 +155,7 @@ Scan read_surface_scan(const ScanOptions& options) {
     // A ball has 0.09 of this; far below a paper's thickness nothing is solid.
     constexpr double kFlat = 1e-9;
     const Tissue& tissue = scan.tissues.front();
-    if (!(tissue.volume > kFlat * std::pow(tissue.area, 1.5)))
+    if (!options.heal && !(tissue.volume > kFlat * std::pow(tissue.area, 1.5)))
         throw InputError(options.input.string() +
                          ": encloses no volume, it is open or flat; a closed surface is needed");
     return scan;

@@ -21,6 +21,7 @@ struct ScanOptions {
     std::string labels;                 ///< values or names, by commas; empty: all but 0
     segmentation::ReadOptions reading;  ///< of a label file
     double close_gaps = 0;              ///< between tissues, up to this wide, mm; 0: none
+    bool heal = false;                  ///< guess what an open surface encloses
     std::string input_unit;             ///< of a surface file: mm, cm, m; empty: mm
 };
 
@@ -44,7 +45,8 @@ struct Scan {
     std::vector<Tissue> tissues;              ///< all, by layer and label value
     std::optional<levelset::GapReport> gaps;  ///< between labels of a single layer
     Vec3 spacing = Vec3::Zero();              ///< of the voxels, mm; zero for a surface
-    int shells = 0;                           ///< outward closed pieces of a surface
+    bool heal = false;                        ///< the surface, which may be open
+    int shells = 0;                           ///< outward closed pieces of a surface; 0: not known
     std::filesystem::path names_from;         ///< where the names come from; empty: none
     std::string sha256;                       ///< of the input file
     std::vector<std::string> warnings;

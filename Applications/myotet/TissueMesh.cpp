@@ -139,6 +139,13 @@ void record_region(const Region& region, const RegionMesh& made, double edge_len
     }
     if (region.smoothed_less)
         report.notes.push_back(component_text(region) + " was smoothed less to keep a thin part");
+    for (const meshing::PhysicsSummary& p : made.summary.physics)
+        if (p.status != "surface fits")
+            report.notes.push_back("component " + std::to_string(region.component) +
+                                   ": the elastic body ended with '" + p.status +
+                                   "', its boundary nodes " + readable(100 * p.mean_distance) +
+                                   " % of an edge from the surface in the mean, " +
+                                   readable(100 * p.max_distance) + " % at most");
     for (const std::string& note : made.summary.notes) report.notes.push_back(note);
     report.seconds["lattice"] += made.summary.seconds_lattice;
     report.seconds["select"] += made.summary.seconds_select;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "CommandLine.h"
 #include "Commands.h"
 #include "Console.h"
+#include "ExitCodes.h"
 #include "MeshJob.h"
 #include "ReportText.h"
 #include "Text.h"
@@ -40,9 +42,18 @@ void add_options(CLI::App& command, Arguments& a) {
         ->check(kPositive)
         ->type_name("FACTOR");
     add_level_set_options(command, a.job.level_sets);
-    command.add_option("--compress", a.job.compress, "how the mesh is fitted to the surface")
-        ->check(CLI::IsMember({"optimization"}))
-        ->capture_default_str();
+    using meshing::Compression;
+    static const std::map<std::string, Compression> kinds = {
+        {"springs", Compression::springs},
+        {"fem", Compression::fem},
+        {"optimization", Compression::optimization}};
+    command
+        .add_option("--compress", a.job.compression,
+                    "how the mesh is fitted to the surface: springs, fem, optimization or, in "
+                    "order, fem,optimization (default: optimization)")
+        ->transform(CLI::CheckedTransformer(kinds))
+        ->delimiter(',')
+        ->type_name("KINDS");
     command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
@@ -80,7 +91,16 @@ ExitCode tell_broken_promises(const RunReport& report) {
     return code;
 }
 
+/// An elastic body begins from the candidate, so that at most one is first.
+void check_compression(const std::vector<meshing::Compression>& kinds) {
+    for (std::size_t i = 1; i < kinds.size(); ++i)
+        if (kinds[i] != meshing::Compression::optimization)
+            throw UsageError(
+                "--compress: springs and fem begin from the candidate; name one of them, first");
+}
+
 ExitCode run(const Arguments& a) {
+    check_compression(a.job.compression);
     const Verbosity verbosity = a.quiet     ? Verbosity::quiet
                                 : a.verbose ? Verbosity::verbose
                                             : Verbosity::normal;

@@ -86,6 +86,7 @@ public:
             record(candidate, summary);
             red_ = std::move(candidate.red);
             summary.seconds_select += watch_.lap();
+            if (by_physics()) candidate_ = candidate.mesh.points;
             fit_surface(candidate.mesh, phi_, progress_);
             summary.seconds_compress += watch_.lap();
             if (summary.distance_rounds >= options_.distance_rounds ||
@@ -99,15 +100,32 @@ public:
         }
     }
 
-    void polish(TetMesh& mesh) {
-        summary.volume_offset = meshing::polish(mesh, phi_, options_.volume, progress_);
+    // From the fitted mesh, or the candidate that it was, through all compressions.
+    void compress(TetMesh& mesh) {
+        if (by_physics()) mesh.points = candidate_;
+        bool fitted = !by_physics();
+        summary.physics.clear();
+        for (const Compression kind : options_.compression) {
+            if (kind != Compression::optimization) {
+                PhysicsOptions physics;
+                physics.material =
+                    kind == Compression::springs ? Material::springs : Material::elements;
+                summary.physics.push_back(compress_by_physics(mesh, phi_, physics, progress_));
+                continue;
+            }
+            if (!fitted) fit_surface(mesh, phi_, progress_);
+            fitted = true;
+            summary.volume_offset = meshing::polish(mesh, phi_, options_.volume, progress_);
+        }
         summary.seconds_compress += watch_.lap();
     }
 
     // Refines at the few places where the finished mesh is not good enough; false
     // when there are none, or so many that the edge length is to blame.
     bool refine_faults(const TetMesh& mesh) {
-        if (!(options_.distance_factor > 0)) return false;
+        if (!(options_.distance_factor > 0) ||
+            options_.compression.back() != Compression::optimization)
+            return false;
         const double far = kFarFault * quality::boundary_edge_lengths(mesh).median;
         std::vector<lattice::RedTet> faults =
             far_from_surface(mesh, red_, phi_, summary.volume_offset, far);
@@ -126,6 +144,10 @@ public:
     Summary summary;
 
 private:
+    [[nodiscard]] bool by_physics() const {
+        return options_.compression.front() != Compression::optimization;
+    }
+
     // Where repair runs into the end of the lattice, a lattice that reaches farther.
     Candidate select() {
         const SelectOptions options{.components = options_.components};
@@ -151,6 +173,7 @@ private:
     Stopwatch watch_;
     LevelPlan plan_;
     lattice::RedGreenLattice lattice_;
+    std::vector<Vec3> candidate_;       // positions before they were fitted; for physics alone
     std::vector<lattice::RedTet> red_;  // of the last candidate
 };
 
@@ -168,6 +191,12 @@ void Options::validate() const {
     require(curvature_factor >= 0, "curvature factor", curvature_factor, "it must not be negative");
     require(thickness_factor >= 0, "thickness factor", thickness_factor, "it must not be negative");
     require(volume >= 0, "volume", volume, "it must not be negative");
+    require(!compression.empty(), "number of compressions", 0, "there must be at least one");
+    for (std::size_t i = 1; i < compression.size(); ++i)
+        require(compression[i] == Compression::optimization, "compression",
+                static_cast<double>(i + 1),
+                "springs and fem begin from the candidate: name one "
+                "of them, first, or none");
     require(components >= 0, "number of components", components, "it must not be negative");
 }
 
@@ -182,10 +211,10 @@ Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
     mesher.summary.out_of_bounds =
         tets < options.least_tets || (options.most_tets > 0 && tets > options.most_tets);
     if (mesher.summary.out_of_bounds) return {std::move(mesh), std::move(mesher.summary)};
-    mesher.polish(mesh);
+    mesher.compress(mesh);
     for (int round = 0; round < kFaultRounds && mesher.refine_faults(mesh); ++round) {
         mesh = mesher.fit();
-        mesher.polish(mesh);
+        mesher.compress(mesh);
         ++mesher.summary.fault_rounds;
     }
     progress.report("compression", 1);

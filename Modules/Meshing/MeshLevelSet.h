@@ -8,11 +8,19 @@
 #include "Core/Progress.h"
 #include "Core/TetMesh.h"
 #include "LevelSet/LevelSet.h"
+#include "Meshing/Physics.h"
 
 namespace myotet::meshing {
 
 /// Longest edge allowed around a point of local coordinates, mm.
 using SizingFunction = std::function<double(const Vec3&)>;
+
+/// How a candidate's boundary is brought onto the surface [Teran05, sec. 7, 8].
+enum class Compression {
+    springs,       ///< as a body of edge and altitude springs
+    fem,           ///< as a neo-Hookean body of finite elements
+    optimization,  ///< node by node, for the shape of the elements
+};
 
 /// How a level set becomes tetrahedra.
 struct Options {
@@ -31,6 +39,8 @@ struct Options {
     /// Stop after the lattice fits when it has fewer or more tetrahedra than these;
     /// 0: no bound. The mesh is then valid but not finished.
     std::int64_t least_tets = 0, most_tets = 0;
+    /// In order, each beginning where the one before ended; physics first, once.
+    std::vector<Compression> compression = {Compression::optimization};
     SizingFunction sizing = {};  ///< empty: none
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
@@ -44,8 +54,9 @@ struct Summary {
     int distance_rounds = 0;  ///< times the lattice was refined for the surface distance
     int fault_rounds = 0;     ///< times it was refined at faults of the finished mesh
     std::int64_t candidate_tets = 0;
-    bool out_of_bounds = false;  ///< stopped for Options::least_tets or most_tets
-    double volume_offset = 0;    ///< isovalue that the surface was fitted to, mm
+    bool out_of_bounds = false;           ///< stopped for Options::least_tets or most_tets
+    std::vector<PhysicsSummary> physics;  ///< one for each compression by springs or elements
+    double volume_offset = 0;             ///< isovalue that the surface was fitted to, mm
     double seconds_lattice = 0, seconds_select = 0, seconds_compress = 0;
     std::vector<std::string> notes;  ///< what a user should know, a sentence each
 };

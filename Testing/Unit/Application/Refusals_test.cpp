@@ -66,7 +66,10 @@ TEST_F(Refusals, CommandLinesThatMakeNoSense) {
     }
     refused(kUsage, scan(), {"--edge-length", "3", "--tets", "5000"});
     refused(kUsage, scan(), {"--quiet", "--verbose"});
-    refused(kUsage, scan(), {"--compress", "springs"});
+    refused(kUsage, scan(), {"--compress", "rubber"});
+    refused(kUsage, scan(), {"--compress", "optimization,fem"});
+    refused(kUsage, scan(), {"--orientation", "both"});
+    refused(kUsage, scan(), {"--smoothing", "gaussian"});
     for (const char* number : {"0", "-1", "nan", "inf", "three"}) {
         EXPECT_THAT(refused(kUsage, scan(), {"--edge-length", number}), HasSubstr(number));
         EXPECT_THAT(refused(kUsage, scan(), {"--tets", number}), HasSubstr(number));
@@ -80,7 +83,11 @@ TEST_F(Refusals, OptionsThatDoNotFitTheInput) {
                 "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
                 "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
     EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--labels", "1"}), HasSubstr("--labels"));
+    EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--close-gaps", "1"}),
+                HasSubstr("--close-gaps"));
+    EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--repair", "r.yaml"}), HasSubstr("--repair"));
     EXPECT_THAT(refused(kUsage, scan(), {"--input-unit", "cm"}), HasSubstr("--input-unit"));
+    EXPECT_THAT(refused(kUsage, scan(), {"--heal"}), HasSubstr("--heal"));
 }
 
 TEST_F(Refusals, FilesThatAreNotThereOrNotKnown) {
