@@ -36,5 +36,16 @@ TEST(CsgTable, framing_keeps_the_samples) {
         }
 }
 
+TEST(CsgTable, a_crop_holds_the_same_samples_where_it_reaches) {
+    const Band a = test::ball(Vec3(0, 0, 0), 20);
+    const Box box{Vec3(10, -5, -5), Vec3(30, 5, 5)};
+    const Band part = cropped(a, box);
+    EXPECT_LT(part.values.size(), a.values.size() / 2);
+    for (double x = 10; x < 29; x += 0.7)
+        for (double y = -5; y < 4; y += 0.7)
+            EXPECT_NEAR(sample(part, Vec3(x, y, 0.4)).value, sample(a, Vec3(x, y, 0.4)).value,
+                        1e-6);  // another origin rounds otherwise
+}
+
 }  // namespace
 }  // namespace myotet::levelset

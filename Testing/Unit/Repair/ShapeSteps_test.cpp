@@ -84,6 +84,16 @@ TEST(ShapeSteps, all_tissues_are_named_by_all) {
     EXPECT_EQ(summary.steps.size(), 2u);
 }
 
+TEST(ShapeSteps, of_all_tissues_only_changed_ones_are_logged) {
+    test::Scene scene = torn();
+    const auto some = test::repaired(scene, "  - keep_largest: all\n");
+    ASSERT_EQ(some.steps.size(), 1u);
+    EXPECT_EQ(some.steps[0].tissue, "muscle");
+    const auto none = test::repaired(scene, "  - keep_largest: all\n");
+    ASSERT_EQ(none.steps.size(), 1u);
+    EXPECT_EQ(none.steps[0].note, "nothing changed");
+}
+
 TEST(ShapeSteps, opening_and_closing_go_through) {
     test::Scene scene = torn();
     const auto summary =
