@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "Core/Geometry.h"
+
+namespace myotet::surface {
+
+/// A signed distance at a point.
+struct FieldSample {
+    double value = 0;              ///< mm, negative inside
+    Vec3 gradient = Vec3::Zero();  ///< dimensionless, about 1 long
+};
+
+/// A level set as this room sees it: a function of position (mm) that may be
+/// called from several threads at once.
+using Field = std::function<FieldSample(const Vec3&)>;
+
+/// The half-space behind the plane through `on`; `outward` points out of it.
+[[nodiscard]] Field half_space(const Vec3& on, const Vec3& outward);
+
+/// The solid grown by `distance` (mm; negative shrinks it).
+[[nodiscard]] Field offset(Field field, double distance);
+
+/// Near `from` the point of phi = 0 that Newton's method along the gradient
+/// finds; no step is longer than `reach` (mm). The best point met is returned
+/// when it does not converge.
+[[nodiscard]] Vec3 project(const Field& phi, const Vec3& from, double reach);
+
+/// The same onto phi = 0 and psi = 0 at once: each step is the shortest one
+/// that solves both linearised equations, x += J^T (J J^T)^-1 (-phi, -psi) with
+/// J the two gradients as rows. Where they are parallel only phi = 0 is kept.
+[[nodiscard]] Vec3 project(const Field& phi, const Field& psi, const Vec3& from, double reach);
+
+/// Largest |principal curvature| (1/mm) of the isosurface through `point`, by
+/// central differences of the unit normal over `step` mm in the tangent plane;
+/// at most about 1 / step.
+[[nodiscard]] double largest_curvature(const Field& phi, const Vec3& point, double step);
+
+}  // namespace myotet::surface

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Surface/Remesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Core/Parallel.h"
+
+namespace myotet::surface {
+namespace {
+
+constexpr std::size_t kGrain = 256;
+constexpr double kTooLong = 4.0 / 3.0, kTooShort = 4.0 / 5.0;
+constexpr double kGrowth = 0.25;  // of the wished length over a distance
+constexpr int kGrowthSweeps = 4;
+constexpr int kSmoothSteps = 2;      // a round
+constexpr double kKeepShape = 0.93;  // cosine of 21.5 degrees: flips for valence stay above
+
+double wished(const Fans& fans, std::int32_t a, std::int32_t b) {
+    return 0.5 * (fans.sizes[a] + fans.sizes[b]);
+}
+
+double length(const Fans& fans, std::int32_t a, std::int32_t b) {
+    return (fans.points[a] - fans.points[b]).norm();
+}
+
+/// Both halves are shorter than the edge, wherever the level sets are, so that
+/// splitting ends.
+void split_in_middle(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t b) {
+    const Vec3 middle = 0.5 * (fans.points[a] + fans.points[b]);
+    const std::int32_t m = split(fans, a, b, edge_star(fans, a, b), middle);
+    place(fans, guide, m, middle);
+    constexpr double kShorter = 0.9;
+    if (std::max(length(fans, a, m), length(fans, m, b)) < kShorter * length(fans, a, b)) return;
+    fans.points[m] = middle;
+    fans.normals[m] = guide.phi(middle).gradient.normalized();
+}
+
+void split_long_edges(Fans& fans, const Guide& guide) {
+    // Triangles made on the way are visited too.
+    for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+        for (int i = 0; i < 3 && fans.alive(t); ++i) {
+            const std::int32_t a = fans.triangles[t][i], b = fans.triangles[t][(i + 1) % 3];
+            if (!(length(fans, a, b) > kTooLong * wished(fans, a, b))) continue;
+            split_in_middle(fans, guide, a, b);
+        }
+}
+
+/// Whether all triangles that a leaves to b are right with b at `at`.
+bool collapse_keeps_facing(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star,
+                           const Vec3& at, const Vec3& normal) {
+    for (const std::int32_t from : {a, b})
+        for (const std::int32_t t : fans.around[from]) {
+            if (t == star.triangle[0] || t == star.triangle[1]) continue;
+            const Triangle& f = fans.triangles[t];
+            if (!faces_outward(fans, f, from, at, normal)) return false;
+            for (const std::int32_t v : f)
+                if (v != from &&
+                    (fans.points[v] - at).norm() > kTooLong * 0.5 * (fans.sizes[v] + fans.sizes[b]))
+                    return false;
+        }
+    return true;
+}
+
+bool collapse_edge(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t b) {
+    if (fans.rim[a] && !fans.rim[b]) std::swap(a, b);
+    const EdgeStar star = edge_star(fans, a, b);
+    if (!may_collapse(fans, a, b, star)) return false;
+    const Vec3 place_before = fans.points[b], normal_before = fans.normals[b];
+    if (fans.rim[a] == fans.rim[b]) place(fans, guide, b, 0.5 * (fans.points[a] + fans.points[b]));
+    const Vec3 at = fans.points[b], normal = fans.normals[b];
+    if (collapse_keeps_facing(fans, a, b, star, at, normal)) {
+        collapse(fans, a, b, star);
+        return true;
+    }
+    fans.points[b] = place_before;
+    fans.normals[b] = normal_before;
+    return false;
+}
+
+void collapse_short_edges(Fans& fans, const Guide& guide) {
+    for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+        for (int i = 0; i < 3 && fans.alive(t); ++i) {
+            const std::int32_t a = fans.triangles[t][i], b = fans.triangles[t][(i + 1) % 3];
+            if (length(fans, a, b) < kTooShort * wished(fans, a, b))
+                collapse_edge(fans, guide, a, b);
+        }
+}
+
+double sharpest(const Fans& fans, std::int32_t a, std::int32_t b, std::int32_t c) {
+    return sharpest_cosine(fans.points[a], fans.points[b], fans.points[c]);
+}
+
+bool evens_valences(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star) {
+    const auto [c, d] = star.opposite;
+    const int ea = excess_valence(fans, a), eb = excess_valence(fans, b),
+              ec = excess_valence(fans, c), ed = excess_valence(fans, d);
+    const auto square = [](int e) { return e * e; };
+    if (square(ea - 1) + square(eb - 1) + square(ec + 1) + square(ed + 1) >=
+        square(ea) + square(eb) + square(ec) + square(ed))
+        return false;
+    const double now = std::max(sharpest(fans, a, b, c), sharpest(fans, b, a, d));
+    const double then = std::max(sharpest(fans, d, b, c), sharpest(fans, c, a, d));
+    return then < std::max(now, kKeepShape);
+}
+
+/// Where point v is drawn to: the middle of its triangles, each weighed by its
+/// area in units of the wished one; on the rim, half way to the middle of its
+/// neighbours, as all points step at once and would swing past one another.
+Vec3 middle_of_star(const Fans& fans, std::int32_t v) {
+    Vec3 sum = Vec3::Zero();
+    double weights = 0;
+    const auto add = [&](double weight, const Vec3& at) {
+        sum += weight * at;
+        weights += weight;
+    };
+    if (fans.rim[v]) {
+        for (const std::int32_t n : rim_neighbours(fans, v))
+            if (n >= 0) add(1 / wished(fans, v, n), 0.5 * (fans.points[v] + fans.points[n]));
+    } else {
+        for (const std::int32_t t : fans.around[v]) {
+            const Triangle& f = fans.triangles[t];
+            const Vec3 &a = fans.points[f[0]], &b = fans.points[f[1]], &c = fans.points[f[2]];
+            const double size = fans.sizes[f[0]] + fans.sizes[f[1]] + fans.sizes[f[2]];
+            add(double_area(a, b, c).norm() / (size * size), (a + b + c) / 3);
+        }
+    }
+    return weights > 0 ? Vec3(sum / weights) : fans.points[v];
+}
+
+bool star_faces_outward(const Fans& fans, std::int32_t v, const Vec3& at, const Vec3& normal) {
+    return std::ranges::all_of(fans.around[v], [&](std::int32_t t) {
+        return faces_outward(fans, fans.triangles[t], v, at, normal);
+    });
+}
+
+}  // namespace
+
+void place(Fans& fans, const Guide& guide, std::int32_t v, const Vec3& at) {
+    const double reach = fans.sizes[v];
+    fans.points[v] = fans.rim[v] && guide.trim ? project(guide.phi, guide.trim, at, reach)
+                                               : project(guide.phi, at, reach);
+    fans.normals[v] = guide.phi(fans.points[v]).gradient.normalized();
+}
+
+void place_all(Fans& fans, const Guide& guide) {
+    parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v)
+            if (!fans.around[v].empty())
+                place(fans, guide, static_cast<std::int32_t>(v), fans.points[v]);
+    });
+}
+
+void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing) {
+    parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v) {
+            if (fans.around[v].empty()) continue;
+            const double k = largest_curvature(phi, fans.points[v], sizing.smallest_length);
+            const double bent = k > 0 ? sizing.curvature_factor / k : sizing.edge_length;
+            fans.sizes[v] = std::clamp(bent, sizing.smallest_length, sizing.edge_length);
+        }
+    });
+    for (int sweep = 0; sweep < kGrowthSweeps; ++sweep)
+        for (std::size_t v = 0; v < fans.points.size(); ++v)
+            for (const std::int32_t n : neighbours(fans, static_cast<std::int32_t>(v)))
+                fans.sizes[v] = std::min(
+                    fans.sizes[v],
+                    fans.sizes[n] + kGrowth * length(fans, static_cast<std::int32_t>(v), n));
+}
+
+void even_valences(Fans& fans) {
+    for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+        for (int i = 0; i < 3 && fans.alive(t); ++i) {
+            const std::int32_t a = fans.triangles[t][i], b = fans.triangles[t][(i + 1) % 3];
+            const EdgeStar star = edge_star(fans, a, b);
+            if (star.inner() && evens_valences(fans, a, b, star) && may_flip(fans, a, b, star))
+                flip(fans, a, b, star);
+        }
+}
+
+void smooth(Fans& fans, const Guide& guide) {
+    // All steps are found from the same positions, then taken one by one where
+    // no triangle turns over: the same on any number of threads.
+    Fans moved;
+    moved.points = fans.points;
+    moved.normals = fans.normals;
+    moved.sizes = fans.sizes;
+    moved.rim = fans.rim;
+    parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (fans.around[i].empty()) continue;
+            const auto v = static_cast<std::int32_t>(i);
+            const Vec3 step = middle_of_star(fans, v) - fans.points[v];
+            const Vec3& n = fans.normals[v];
+            place(moved, guide, v, fans.points[v] + (step - n.dot(step) * n));
+        }
+    });
+    for (std::size_t i = 0; i < fans.points.size(); ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        if (fans.around[v].empty() ||
+            !star_faces_outward(fans, v, moved.points[v], moved.normals[v]))
+            continue;
+        fans.points[v] = moved.points[v];
+        fans.normals[v] = moved.normals[v];
+    }
+}
+
+void remesh(Fans& fans, const Guide& guide, const Sizing& sizing, int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+        find_sizes(fans, guide.phi, sizing);
+        split_long_edges(fans, guide);
+        collapse_short_edges(fans, guide);
+        even_valences(fans);
+        for (int step = 0; step < kSmoothSteps; ++step) smooth(fans, guide);
+    }
+}
+
+}  // namespace myotet::surface

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Surface/Fans.h"
+#include "Surface/Field.h"
+
+namespace myotet::surface {
+
+/// The level sets that hold a mesh.
+struct Guide {
+    Field phi;   ///< every point stays on its zero set
+    Field trim;  ///< points of the rim stay on its zero set too; empty: none
+};
+
+/// How long edges shall be.
+struct Sizing {
+    double edge_length = 0;      ///< where the surface is flat enough, mm
+    double smallest_length = 0;  ///< nowhere shorter, mm
+    /// No longer than this part of the smallest radius of curvature: a chord of
+    /// length L leaves an arc of radius R by L^2 / (8 R).
+    double curvature_factor = 1;
+};
+
+/// Puts point v to where its level sets are zero next to `at`.
+void place(Fans& fans, const Guide& guide, std::int32_t v, const Vec3& at);
+
+/// Places all points, on all threads.
+void place_all(Fans& fans, const Guide& guide);
+
+/// Wished edge lengths at all points, growing by at most a quarter of the way
+/// from one to the next.
+void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing);
+
+/// Isotropic remeshing towards the wished lengths (Botsch, Kobbelt 2004):
+/// splits edges longer than 4/3 of it, collapses edges shorter than 4/5, flips
+/// edges so that points have six of them (four on the rim), and moves points
+/// along the surface to the middle of their triangles, on the rim along it.
+/// Every point is placed on its level sets after each move. The topology does
+/// not change.
+void remesh(Fans& fans, const Guide& guide, const Sizing& sizing, int rounds);
+
+/// One step of moving all points along the surface.
+void smooth(Fans& fans, const Guide& guide);
+
+/// One pass of flips that even out the number of edges at the points.
+void even_valences(Fans& fans);
+
+}  // namespace myotet::surface
