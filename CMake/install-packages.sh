@@ -8,7 +8,7 @@ myotet_packages=(
   libinsighttoolkit5-dev libnifti2-dev libdcmtk-dev
   libopenvdb-dev libboost-iostreams-dev libblosc-dev
   libyaml-cpp-dev
-  libvtk9-dev
+  libvtk9-dev libhdf5-dev libpugixml-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )

@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "Core/TetMesh.h"
+#include "MeshFiles/NamedMesh.h"
 
 namespace myotet::meshfiles {
 
@@ -39,5 +42,41 @@ void write_vtp(const TriMesh& surface, const std::map<std::int32_t, std::string>
 /// Writes binary .stl whose header says SPACE=LPS and UNIT=mm; coordinates
 /// become 32-bit numbers. Throws IoError.
 void write_stl(const TriMesh& surface, const std::filesystem::path& file);
+
+/// What a format can hold.
+enum class Holds { tetrahedra, surface };
+struct Format {
+    std::string_view extension;  ///< with its dot, small letters
+    Holds holds = Holds::tetrahedra;
+};
+
+/// The formats that write_mesh writes, and read_mesh reads.
+[[nodiscard]] std::span<const Format> formats();
+
+/// How .msh holds its numbers; the other formats know one way only.
+enum class Encoding { text, binary };
+
+/// Reads a mesh with its names by its extension: those of formats(), and .off.
+/// Tetrahedra and points are numbered as the file numbers them. Tissues that a
+/// file does not number are labelled 1, 2, ... in its order; of a mesh file
+/// that tells faces' names but no tags, `A|exterior` gets kExteriorTag + A and
+/// the others follow. A surface file becomes face sets without tetrahedra. A
+/// file that says SPACE=RAS is turned to LPS, any other is taken as LPS, mm.
+/// Throws IoError when it cannot be read or is cut short, InputError when it
+/// is damaged (with the line where there is one), holds no tetrahedra or
+/// elements of another kind, ResourceError beyond 32-bit indices.
+[[nodiscard]] NamedMesh read_mesh(const std::filesystem::path& file);
+
+/// Writes a mesh by the file's extension, one of formats(). Surface formats
+/// get the face sets (.ply, .obj) or the boundary (.stl, .vtp). Names, face
+/// sets and node sets are kept as the README's table says. The bytes depend on
+/// the arguments alone. Throws InputError for an unknown extension and for a
+/// surface in a format of tetrahedra, MeshError for labels, tags or names that
+/// the format cannot hold, IoError.
+void write_mesh(const NamedMesh& mesh, const std::filesystem::path& file,
+                Encoding encoding = Encoding::text);
+
+/// The files that write_mesh makes: the file itself, for .xdmf its .h5 first.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& file);
 
 }  // namespace myotet::meshfiles

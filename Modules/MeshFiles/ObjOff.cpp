@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <vector>
 
+#include "MeshFiles/NamedComments.h"
 #include "MeshFiles/RawSurface.h"
 #include "MeshFiles/TextReader.h"
 
@@ -24,14 +28,59 @@ bool next_statement(TextReader& text, RawSurface& surface) {
     return false;
 }
 
+/// Tags for the groups of an .obj: those that comments `# faces 1007=name`
+/// give, or 1, 2, ... in order.
+class Groups {
+public:
+    explicit Groups(std::string_view content) {
+        for (const auto& [tag, name] : read_comments(content, '#').faces)
+            if (tag > 0 && tag <= std::numeric_limits<std::int32_t>::max()) {
+                const auto narrow = static_cast<std::int32_t>(tag);
+                tag_of_.emplace(obj_group(name), narrow);
+                names_.emplace(narrow, name);
+            }
+    }
+    void begin(std::string_view rest) {
+        const std::size_t from = rest.find_first_not_of(" \t");
+        std::string name(from == std::string_view::npos ? "" : rest.substr(from));
+        while (!name.empty() && (name.back() == '\r' || name.back() == ' ')) name.pop_back();
+        const auto [found, fresh] = tag_of_.try_emplace(name, next_);
+        if (fresh) names_.emplace(next_++, name);
+        tag_ = found->second;
+        used_ = true;
+    }
+    void tag_new_triangles(RawSurface& surface) const {
+        surface.tags.resize(surface.triangles.size(), tag_);
+    }
+    void finish(RawSurface& surface) {
+        if (used_)
+            surface.tag_names = std::move(names_);
+        else
+            surface.tags.clear();
+    }
+
+private:
+    std::map<std::string, std::int32_t> tag_of_;
+    std::map<std::int32_t, std::string> names_;
+    std::int32_t tag_ = 0, next_ = 1;
+    bool used_ = false;
+};
+
 }  // namespace
+
+std::string obj_group(std::string name) {
+    std::ranges::replace(name, ' ', '_');  // a blank begins another group
+    return name;
+}
 
 RawSurface parse_obj(std::string_view content, const std::filesystem::path& file) {
     TextReader text(content, file);
     RawSurface surface;
+    Groups groups(content);
     std::vector<std::int64_t> corners;
     while (next_statement(text, surface)) {
         const std::string_view keyword = text.word();
+        if (keyword == "g") groups.begin(text.rest());
         if (keyword == "v") surface.points.push_back(read_point(text));
         if (keyword != "f") continue;
         corners.clear();
@@ -45,7 +94,9 @@ RawSurface parse_obj(std::string_view content, const std::filesystem::path& file
         }
         if (corners.size() < 3) text.fail("is a face of fewer than three corners");
         surface.add_polygon(corners);
+        groups.tag_new_triangles(surface);
     }
+    groups.finish(surface);
     return surface;
 }
 

@@ -4,8 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 
+#include "MeshFiles/RawMesh.h"
 #include "MeshFiles/RawSurface.h"
 #include "MeshFiles/TextReader.h"
 
@@ -29,6 +31,7 @@ struct Header {
     Layout layout = Layout::text;
     std::vector<Element> elements;
     std::string space;
+    std::map<std::int32_t, std::string> tag_names;
 };
 
 Kind read_kind(TextReader& text) {
@@ -70,6 +73,16 @@ Property read_property(TextReader& text) {
                   "; the file is cut short, copy or export it again");
 }
 
+/// `SPACE=LPS`, or the name of a tag as `faces 1007=biceps|exterior`.
+void read_comment(TextReader& text, Header& header) {
+    if (header.space.empty()) header.space = space_said_by(text.rest());
+    if (text.word() != "faces") return;
+    std::int64_t tag = 0;
+    std::string name;
+    if (parse_value_name(text.rest(), tag, name))
+        header.tag_names[static_cast<std::int32_t>(tag)] = name;
+}
+
 Header read_header(TextReader& text, const std::filesystem::path& file) {
     Header header;
     if (!text.next_line() || text.word() != "ply") text.fail("does not begin with ply");
@@ -81,7 +94,7 @@ Header read_header(TextReader& text, const std::filesystem::path& file) {
             return header;
         }
         if (keyword == "format") header.layout = read_layout(text);
-        if (keyword == "comment" && header.space.empty()) header.space = space_said_by(text.rest());
+        if (keyword == "comment") read_comment(text, header);
         if (keyword == "element") {
             const std::string_view name = text.word();
             const auto count = text.number<std::int64_t>("the number of elements");
@@ -160,11 +173,13 @@ std::int64_t to_index(double value) {
 void read_element(const Element& element, Values& values, RawSurface& surface,
                   std::vector<std::int64_t>& corners) {
     Vec3 point = Vec3::Zero();
+    std::int64_t tag = -1;
     for (const Property& property : element.properties) {
         const double first = values.next(property.count_kind.value_or(property.kind), element.name);
         if (!property.count_kind) {
             for (int axis = 0; axis < 3; ++axis)
                 if (property.name == std::string_view("xyz").substr(axis, 1)) point[axis] = first;
+            if (element.name == "face" && property.name == "tag") tag = to_index(first);
             continue;
         }
         corners.clear();
@@ -175,6 +190,8 @@ void read_element(const Element& element, Values& values, RawSurface& surface,
             surface.add_polygon(corners);
     }
     if (element.name == "vertex") surface.points.push_back(point);
+    if (tag >= 0 && tag <= std::numeric_limits<std::int32_t>::max())
+        surface.tags.resize(surface.triangles.size(), static_cast<std::int32_t>(tag));
 }
 
 }  // namespace
@@ -184,6 +201,7 @@ RawSurface parse_ply(std::string_view content, const std::filesystem::path& file
     const Header header = read_header(text, file);
     RawSurface surface;
     surface.space = header.space;
+    surface.tag_names = header.tag_names;
     Values values(text, header.layout, file);
     std::vector<std::int64_t> corners;
     for (const Element& element : header.elements)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ namespace myotet::meshfiles {
 struct RawSurface {
     std::vector<Vec3> points;
     std::vector<std::array<std::int64_t, 3>> triangles;
+    std::vector<std::int32_t> tags;                 ///< one a triangle, or none
+    std::map<std::int32_t, std::string> tag_names;  ///< of the tags that have one
     std::string space;  ///< patient frame that the file names (LPS, RAS), or empty
 
     /// Adds a polygon as a fan around its first corner.
@@ -32,6 +35,9 @@ struct RawSurface {
 [[nodiscard]] RawSurface parse_off(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawSurface parse_stl(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawSurface parse_ply(std::string_view content, const std::filesystem::path& file);
+
+/// A face set's name as a group of an .obj.
+[[nodiscard]] std::string obj_group(std::string name);
 
 /// By VTK's reader, with its complaints turned into exceptions.
 [[nodiscard]] RawSurface read_vtp(const std::filesystem::path& file);

@@ -1,35 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
-#include <cctype>
-#include <fstream>
-#include <sstream>
 #include <unordered_map>
 
 #include "Core/Errors.h"
 #include "MeshFiles/MeshFiles.h"
+#include "MeshFiles/RawMesh.h"
 #include "MeshFiles/RawSurface.h"
 
 namespace myotet::meshfiles {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string lower_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
-
-std::string read_bytes(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    content << in.rdbuf();
-    if (!in || fs::is_directory(file))
-        throw IoError(file.string() + ": cannot be read; check its name and permissions");
-    return std::move(content).str();
-}
 
 RawSurface read_raw(const fs::path& file) {
     const std::string extension = lower_extension(file);
@@ -72,8 +54,8 @@ struct PositionHash {
 };
 
 /// One point a position, in the order of first use; triangles that lost a
-/// corner are left out.
-TriMesh merge_points(const RawSurface& raw) {
+/// corner are left out, those that stay are listed in `kept`, if given.
+TriMesh merge_points(const RawSurface& raw, std::vector<std::size_t>* kept = nullptr) {
     TriMesh mesh;
     std::unordered_map<std::array<double, 3>, std::int32_t, PositionHash> number_at;
     number_at.reserve(raw.points.size());
@@ -85,12 +67,24 @@ TriMesh merge_points(const RawSurface& raw) {
         if (fresh) mesh.points.push_back(p);
         return it->second;
     };
-    for (const auto& t : raw.triangles) {
+    for (std::size_t f = 0; f < raw.triangles.size(); ++f) {
+        const auto& t = raw.triangles[f];
         const auto &a = raw.points[t[0]], &b = raw.points[t[1]], &c = raw.points[t[2]];
         if (a == b || b == c || c == a) continue;
         const std::int32_t i = number(t[0]), j = number(t[1]), k = number(t[2]);
         mesh.triangles.push_back({i, j, k});
+        if (kept) kept->push_back(f);
     }
+    return mesh;
+}
+
+/// In mm and LPS.
+TriMesh placed(TriMesh mesh, const RawSurface& raw, double scale, const fs::path& file) {
+    if (mesh.triangles.empty())
+        throw InputError(file.string() + ": holds no triangles; a closed surface is needed");
+    // RAS and LPS differ by half a turn about the third axis.
+    const Vec3 to_lps = raw.space == "RAS" ? Vec3(-1, -1, 1) : Vec3(1, 1, 1);
+    for (Vec3& p : mesh.points) p = scale * to_lps.cwiseProduct(p);
     return mesh;
 }
 
@@ -112,13 +106,32 @@ TriMesh read_surface(const fs::path& file, double scale) {
                          " is not a positive number of millimetres a unit");
     const RawSurface raw = read_raw(file);
     check_numbers(raw, file);
-    TriMesh mesh = merge_points(raw);
-    if (mesh.triangles.empty())
-        throw InputError(file.string() + ": holds no triangles; a closed surface is needed");
-    // RAS and LPS differ by half a turn about the third axis.
-    const Vec3 to_lps = raw.space == "RAS" ? Vec3(-1, -1, 1) : Vec3(1, 1, 1);
-    for (Vec3& p : mesh.points) p = scale * to_lps.cwiseProduct(p);
-    return mesh;
+    return placed(merge_points(raw), raw, scale, file);
+}
+
+NamedMesh read_named_surface(const fs::path& file) {
+    const RawSurface raw = read_raw(file);
+    check_numbers(raw, file);
+    std::vector<std::size_t> kept;
+    TriMesh surface = placed(merge_points(raw, &kept), raw, 1, file);
+    const bool tagged = raw.tags.size() == raw.triangles.size();
+    std::map<std::int32_t, FaceSet> sets;
+    for (std::size_t f = 0; f < kept.size(); ++f) {
+        const std::int32_t tag = tagged ? raw.tags[kept[f]] : kExteriorTag + 1;
+        FaceSet& set = sets[tag];
+        if (set.triangles.empty()) {
+            const auto name = raw.tag_names.find(tag);
+            set.tag = tag;
+            set.name = name != raw.tag_names.end() ? name->second
+                       : tagged                    ? std::to_string(tag)
+                                                   : file.stem().string();
+        }
+        set.triangles.push_back(surface.triangles[f]);
+    }
+    NamedMesh named;
+    named.mesh.points = std::move(surface.points);
+    for (auto& [tag, set] : sets) named.faces.push_back(std::move(set));
+    return named;
 }
 
 }  // namespace myotet::meshfiles

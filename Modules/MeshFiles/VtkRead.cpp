@@ -17,6 +17,7 @@
 
 #include "Core/Errors.h"
 #include "MeshFiles/MeshFiles.h"
+#include "MeshFiles/RawMesh.h"
 #include "MeshFiles/RawSurface.h"
 
 namespace myotet::meshfiles {
@@ -141,6 +142,19 @@ std::int32_t label_at(vtkDataArray* labels, vtkIdType cell) {
     return labels ? static_cast<std::int32_t>(labels->GetComponent(cell, 0)) : 0;
 }
 
+/// Field array `label_names`: texts `7=biceps`.
+std::map<std::int32_t, std::string> names_in(vtkDataSet& data) {
+    std::map<std::int32_t, std::string> names;
+    auto* said = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("label_names"));
+    for (vtkIdType i = 0; said && i < said->GetNumberOfValues(); ++i) {
+        std::int64_t value = 0;
+        std::string name;
+        if (parse_value_name(std::string(said->GetValue(i)), value, name))
+            names[static_cast<std::int32_t>(value)] = name;
+    }
+    return names;
+}
+
 }  // namespace
 
 RawSurface read_vtp(const std::filesystem::path& file) {
@@ -148,11 +162,14 @@ RawSurface read_vtp(const std::filesystem::path& file) {
     return surface_of(*data, file);
 }
 
-TetMesh read_vtu(const std::filesystem::path& file) {
+TetMesh read_vtu(const std::filesystem::path& file) { return read_named_vtu(file).mesh; }
+
+NamedMesh read_named_vtu(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file))
         throw IoError(file.string() + ": cannot be read; check its name and permissions");
     const auto data = read_with<vtkXMLUnstructuredGridReader>(file);
-    TetMesh mesh;
+    NamedMesh named{.names = names_in(*data)};
+    TetMesh& mesh = named.mesh;
     mesh.points = points_of(*data);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
         if (!mesh.points[i].allFinite())
@@ -177,7 +194,10 @@ TetMesh read_vtu(const std::filesystem::path& file) {
     if (mesh.tets.empty())
         throw InputError(file.string() +
                          ": holds no tetrahedra; a tetrahedral mesh (.vtu) is needed");
-    return mesh;
+    // RAS and LPS differ by half a turn about the third axis.
+    if (space_of(*data) == "RAS")
+        for (Vec3& p : mesh.points) p = Vec3(-p[0], -p[1], p[2]);
+    return named;
 }
 
 }  // namespace myotet::meshfiles

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// What others write, we read; what we write, gmsh reads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "NamedMeshes.h"
+#include "Support/RunProgram.h"
+
+namespace myotet::meshfiles {
+namespace {
+
+using myotet::testing::run_program;
+using myotet::testing::TemporaryFolder;
+using myotet::testing::write_bytes;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+constexpr const char* kGmsh = "/usr/bin/gmsh";
+
+/// Has gmsh read the file and save it as msh41; the result read back.
+NamedMesh through_gmsh(const std::filesystem::path& file, const TemporaryFolder& folder) {
+    const auto out = folder / "through.msh";
+    const auto ran =
+        run_program(kGmsh, {file.string(), "-save", "-format", "msh41", "-o", out.string()});
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_THAT(ran.out + ran.err, ::testing::Not(HasSubstr("Error")));
+    EXPECT_THAT(ran.out + ran.err, ::testing::Not(HasSubstr("Warning")));
+    return read_mesh(out);
+}
+
+class Gmsh : public ::testing::TestWithParam<Encoding> {
+protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(kGmsh)) GTEST_SKIP() << "gmsh is not installed";
+    }
+};
+
+TEST_P(Gmsh, KeepsGroupsTagsAndNamesOfOurMsh) {
+    const TemporaryFolder folder;
+    const NamedMesh mesh = three_tets();
+    write_mesh(mesh, folder / "a.msh", GetParam());
+    const NamedMesh back = through_gmsh(folder / "a.msh", folder);
+    EXPECT_EQ(back.mesh.points.size(), mesh.mesh.points.size());
+    EXPECT_EQ(back.mesh.tets.size(), mesh.mesh.tets.size());
+    EXPECT_EQ(back.names, mesh.names);
+    ASSERT_EQ(back.faces.size(), mesh.faces.size());
+    for (std::size_t s = 0; s < back.faces.size(); ++s) {
+        EXPECT_EQ(back.faces[s].name, mesh.faces[s].name);
+        EXPECT_EQ(back.faces[s].tag, mesh.faces[s].tag);
+        EXPECT_EQ(back.faces[s].triangles.size(), mesh.faces[s].triangles.size());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Encodings, Gmsh, ::testing::Values(Encoding::text, Encoding::binary));
+
+TEST(GmshReads, OurMeditAndNastran) {
+    if (!std::filesystem::exists(kGmsh)) GTEST_SKIP() << "gmsh is not installed";
+    const TemporaryFolder folder;
+    const NamedMesh mesh = three_tets();
+    for (const char* name : {"a.mesh", "a.bdf"}) {
+        write_mesh(mesh, folder / name);
+        const NamedMesh back = through_gmsh(folder / name, folder);
+        EXPECT_EQ(back.mesh.tets.size(), 3u) << name;
+        EXPECT_NEAR(volume(back.mesh), volume(mesh.mesh), 1e-6 * volume(mesh.mesh)) << name;
+    }
+}
+
+// gmsh writes Nastran's small fields: eight characters, five digits at least.
+constexpr double kSmallField = 1e-5;
+
+TEST(WeRead, GmshsAbaqusNastranAndMedit) {
+    if (!std::filesystem::exists(kGmsh)) GTEST_SKIP() << "gmsh is not installed";
+    const TemporaryFolder folder;
+    const NamedMesh mesh = three_tets();
+    write_mesh(mesh, folder / "a.msh");
+    for (const char* format : {"inp", "bdf", "mesh"}) {
+        const auto out = folder / (std::string("b.") + format);
+        const auto ran = run_program(
+            kGmsh, {(folder / "a.msh").string(), "-save", "-format", format, "-o", out.string()});
+        ASSERT_EQ(ran.code, 0) << ran.out << ran.err;
+        const NamedMesh back = read_mesh(out);
+        EXPECT_EQ(back.mesh.tets.size(), 3u) << format;
+        EXPECT_NEAR(volume(back.mesh), volume(mesh.mesh), kSmallField * volume(mesh.mesh))
+            << format;
+    }
+}
+
+/// Sets of elements, ranges and quoted names, as Abaqus writes them.
+TEST(WeRead, AbaqusWithElementSetsAndRanges) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "a.inp",
+                "*Heading\r\n** a comment\r\n*Node\r\n 10, 0., 0., 0.\r\n 20, 1., 0., 0.\r\n"
+                " 30, 0., 1., 0.\r\n 40, 0., 0., 1.\r\n 50, 1., 1., 1.\r\n"
+                "*Element, type=C3D4\r\n1, 10, 20, 30, 40\r\n2, 20, 30, 40, 50\r\n"
+                "*Elset, elset=bone\r\n 1,\r\n*Elset, elset=\"deep, fat\", generate\r\n 2, 2, 1\r\n"
+                "*Nset, nset=fixed, generate\r\n 10, 30, 10\r\n"
+                "*Surface, type=ELEMENT, name=under\r\nbone, S1\r\n"
+                "*Material, name=any\r\n*Elastic\r\n1., 0.3\r\n");
+    const NamedMesh mesh = read_mesh(folder / "a.inp");
+    EXPECT_THAT(mesh.mesh.labels, ElementsAre(1, 2));
+    EXPECT_THAT(mesh.names, ElementsAre(Pair(1, "bone"), Pair(2, "deep, fat")));
+    ASSERT_EQ(mesh.faces.size(), 1u);
+    EXPECT_EQ(mesh.faces[0].name, "under");
+    EXPECT_THAT(mesh.faces[0].triangles, ElementsAre(Triangle{0, 2, 1}));
+    EXPECT_THAT(mesh.nodes[0].nodes, ElementsAre(0, 1, 2));
+}
+
+/// Small, large and free fields, exponents without a letter, THRU-less sets.
+TEST(WeRead, NastranInAllFields) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "a.nas",
+                "$ bulk data alone\n"
+                "GRID           1              0.      0.      0.\n"
+                "GRID,2,,1.+0,0.,0.\n"
+                "GRID*                  3                             0.             1.D0\n"
+                "*                     0.\n"
+                "GRID           4              0.      0.   1.5-1\n"
+                "CTETRA         1       9       1       2       3       4\n");
+    const NamedMesh mesh = read_mesh(folder / "a.nas");
+    EXPECT_THAT(mesh.mesh.labels, ElementsAre(9));
+    EXPECT_DOUBLE_EQ(volume(mesh.mesh), 0.15 / 6);
+}
+
+/// Labels and tags of FEBio files come from their order and their names.
+TEST(WeRead, FebioWithoutOurComments) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "a.feb",
+                "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><febio_spec version=\"4.0\"><Mesh>"
+                "<Nodes name=\"n\"><node id=\"3\">0,0,0</node><node id=\"4\">1.0e+00, 0, 0</node>"
+                "<node id=\"5\">0,1,0</node><node id=\"9\">0,0,1</node></Nodes>"
+                "<Elements type=\"tet4\" name=\"bone\"><elem id=\"1\"> 3, 4, 5, 9</elem></Elements>"
+                "<Surface name=\"bone|exterior\"><tri3 id=\"1\">3,5,4</tri3></Surface>"
+                "<Surface name=\"other\"><tri3 id=\"1\">3,4,9</tri3></Surface>"
+                "</Mesh></febio_spec>");
+    const NamedMesh mesh = read_mesh(folder / "a.feb");
+    EXPECT_THAT(mesh.names, ElementsAre(Pair(1, "bone")));
+    EXPECT_EQ(mesh.faces[0].tag, 1001);
+    EXPECT_EQ(mesh.faces[1].tag, 1002);
+    EXPECT_DOUBLE_EQ(volume(mesh.mesh), 1.0 / 6);
+}
+
+}  // namespace
+}  // namespace myotet::meshfiles
