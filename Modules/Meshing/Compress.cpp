@@ -9,6 +9,7 @@
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "Meshing/AngleEnergy.h"
 #include "Meshing/NodeEnergy.h"
 #include "Meshing/Stars.h"
 #include "Quality/Quality.h"
@@ -37,13 +38,27 @@ constexpr double kBad = 3.0;
 // Where the balance between shape and fit is shifted: an aspect ratio, a distance
 // in median edges, and by how much each time.
 constexpr double kTooLong = 4.2, kTooFar = 0.12, kShift = 3;
+// Badness of tetrahedra that are worked on where the angles decide, and of those whose
+// fit is loosened, by how much each time. Nothing is gained within 5 % of the goal.
+constexpr double kAwake = 0.8, kPoor = 0.95, kLoosen = 0.5;
 
-// One stage: `sweeps` sweeps at exponent m and fit weight mu.
+// One stage: `sweeps` sweeps at exponent m (kAngles: AngleEnergy) and fit weight mu.
+constexpr int kAngles = 0;
 struct Stage {
     int sweeps;
     int m;
     double mu;
 };
+
+// Both energies of a star at a stage.
+struct Measure {
+    StarEnergy powers;
+    AngleEnergy angles;
+};
+double value(const StarEnergy& energy, const Vec3& x, int m) { return energy.value(x, m); }
+double value(const AngleEnergy& energy, const Vec3& x, int) { return energy.value(x); }
+Expansion expand(const StarEnergy& energy, const Vec3& x, int m) { return energy.expand(x, m); }
+Expansion expand(const AngleEnergy& energy, const Vec3& x, int) { return energy.expand(x); }
 
 class Compressor {
 public:
@@ -69,9 +84,12 @@ public:
             for (std::size_t c = 0; c + 1 < stars_.colour_start.size(); ++c)
                 parallel_for(stars_.colour_start[c], stars_.colour_start[c + 1], kGrain,
                              [&](std::size_t first, std::size_t last) {
-                                 thread_local StarEnergy energy;
+                                 thread_local Measure measure;
                                  for (std::size_t i = first; i < last; ++i)
-                                     visit(stars_.by_colour[i], stage, energy);
+                                     if (stage.m == kAngles)
+                                         visit(stars_.by_colour[i], stage, measure.angles);
+                                     else
+                                         visit(stars_.by_colour[i], stage, measure.powers);
                              });
         }
     }
@@ -108,6 +126,23 @@ public:
                 dirty_[v] = 1;
             }
     }
+    // Wakes what is bad and loosens the fit of what is poor; false when nothing is.
+    bool loosen_poor(const TetMesh& mesh) {
+        std::vector<char> poor(x_.size(), 0);
+        bool any = false;
+        for (const Tet& t : mesh.tets) {
+            const double bad = badness(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]);
+            if (!(bad > kAwake)) continue;
+            for (const std::int32_t n : t) {
+                dirty_[n] = 1;
+                poor[n] |= static_cast<char>(bad > kPoor);
+            }
+            any |= bad > kPoor;
+        }
+        for (std::size_t v = 0; v < x_.size(); ++v)
+            if (poor[v]) weight_[v] *= kLoosen;
+        return any;
+    }
     void wake_all() { std::fill(dirty_.begin(), dirty_.end(), 1); }
 
 private:
@@ -138,7 +173,8 @@ private:
         return sum;
     }
 
-    void visit(std::int32_t v, const Stage& stage, StarEnergy& energy) {
+    template <class Energy>
+    void visit(std::int32_t v, const Stage& stage, Energy& energy) {
         if (!dirty_[v]) return;
         dirty_[v] = 0;
         const double h = stars_.scale[v], per_h = 1 / h;
@@ -150,7 +186,7 @@ private:
                        (x_[f[2]] - start) * per_h);
         const bool boundary = stars_.on_boundary(v);
         Vec3 u = Vec3::Zero();  // displacement in units of h
-        Expansion e = energy.expand(u, stage.m);
+        Expansion e = expand(energy, u, stage.m);
         MYOTET_CHECK(e.value < std::numeric_limits<double>::infinity(),
                      "a positive star stays positive");
         const double mu = stage.mu * weight_[v];
@@ -169,10 +205,10 @@ private:
         double t = 1;
         for (int halving = 0; halving < 6; ++halving, t *= 0.5) {
             u = t * step;
-            double value = energy.value(u, stage.m);
-            if (!(value < std::numeric_limits<double>::infinity())) continue;
-            if (boundary) value += fit(v, start + h * u, mu, nullptr);
-            if (value <= e.value + 1e-4 * t * slope) {
+            double energy_there = value(energy, u, stage.m);
+            if (!(energy_there < std::numeric_limits<double>::infinity())) continue;
+            if (boundary) energy_there += fit(v, start + h * u, mu, nullptr);
+            if (energy_there <= e.value + 1e-4 * t * slope) {
                 x_[v] = start + h * u;
                 if (u.norm() > kStill) wake_star(v);
                 return;
@@ -214,8 +250,10 @@ constexpr Stage kDrive[] = {{1, 1, 3},   {1, 1, 10},  {1, 1, 30},  {1, 1, 100},
                             {1, 1, 300}, {1, 1, 1e3}, {1, 1, 3e3}, {3, 2, 1e5}};
 constexpr Stage kShape{8, 4, 1e6};
 constexpr Stage kWorst{2, 8, 2e7};
+constexpr Stage kAngular{3, kAngles, 2e6};
 constexpr Stage kVolume{2, 2, 1e5};
-constexpr int kWorstRounds = 7, kFairRounds = 3;
+constexpr Stage kDraft{2, 4, 1e6};
+constexpr int kWorstRounds = 7, kFairRounds = 3, kAngleRounds = 14;
 constexpr int kVolumeRounds = 3;
 
 }  // namespace
@@ -229,28 +267,37 @@ void fit_surface(TetMesh& mesh, const LevelSet& phi, ProgressSink& progress) {
     }
 }
 
-double polish(TetMesh& mesh, const LevelSet& phi, double wanted_volume, ProgressSink& progress) {
+double polish(TetMesh& mesh, const LevelSet& phi, const PolishOptions& options,
+              ProgressSink& progress) {
     Compressor compressor(mesh, phi);
     const std::vector<Triangle> faces = boundary_faces(mesh.tets);
+    const bool to_volume = options.volume > 0;
     double offset = 0;
     const auto correct_volume = [&] {
         // dV/dc is the area.
-        if (wanted_volume > 0) offset += (wanted_volume - volume(mesh)) / boundary_area(mesh);
+        if (to_volume) offset += (options.volume - volume(mesh)) / boundary_area(mesh);
     };
-    for (int i = 0; wanted_volume > 0 && i < kVolumeRounds; ++i) {
+    for (int i = 0; to_volume && i < kVolumeRounds; ++i) {
         correct_volume();
         compressor.wake_boundary();
         compressor.run(kVolume, offset, progress);
     }
     compressor.wake_all();
-    compressor.run(kShape, offset, progress);
-    for (int i = 0; i < kWorstRounds; ++i) {
-        progress.report("compression", (i + 1) / (kWorstRounds + 1.0));
+    compressor.run(options.draft ? kDraft : kShape, offset, progress);
+    const int rounds = options.draft ? 0 : options.hold_distance ? kWorstRounds : kAngleRounds;
+    for (int i = 0; i < rounds; ++i) {
+        progress.report("compression", (i + 1) / (rounds + 1.0));
         correct_volume();
-        if (wanted_volume > 0) compressor.wake_boundary();
-        compressor.wake_bad(mesh, kBad);
-        if (i >= kFairRounds) compressor.rebalance(mesh, faces);
-        compressor.run(kWorst, offset, progress);
+        if (to_volume) compressor.wake_boundary();
+        if (options.hold_distance) {
+            compressor.wake_bad(mesh, kBad);
+            if (i >= kFairRounds) compressor.rebalance(mesh, faces);
+            compressor.run(kWorst, offset, progress);
+        } else {
+            const bool poor = compressor.loosen_poor(mesh);
+            compressor.run(kAngular, offset, progress);
+            if (!poor && !to_volume) break;
+        }
     }
     return offset;
 }

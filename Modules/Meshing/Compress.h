@@ -19,7 +19,9 @@ namespace myotet::meshing {
 // faces around the node: fitting faces and not only nodes makes the surface straddle phi = c,
 // which keeps the volume; the fourth power holds back the farthest places. mu
 // grows from sweep to sweep, as the paper moves boundary nodes gradually; m
-// grows too, so that the worst elements come to decide.
+// grows too, so that the worst elements come to decide. In the last rounds, where the
+// distance is not held, the sum is AngleEnergy's, which knows dihedral angles and aspect
+// ratios themselves, and mu is halved around elements that have not reached its goal.
 //
 // The mesh must be positive and stays so. Same bytes on any number of threads:
 // nodes are coloured, and the colours swept in order.
@@ -27,9 +29,20 @@ namespace myotet::meshing {
 /// The first part: drives the candidate's boundary onto phi = 0.
 void fit_surface(TetMesh& mesh, const levelset::LevelSet& phi, ProgressSink& progress);
 
-/// The second part: improves the elements, worst last, and reaches `volume`
-/// (mm^3; 0: none asked) by fitting phi = c instead of 0. Returns c, mm.
-double polish(TetMesh& mesh, const levelset::LevelSet& phi, double wanted_volume,
+/// What the second part shall reach.
+struct PolishOptions {
+    double volume = 0;  ///< of the mesh, mm^3; 0: none asked
+    /// The surface's distance is promised: the worst elements give way to it. Without,
+    /// it gives way to them until all angles lie within 28 and 116 degrees and aspect
+    /// ratios below 3.4, or the rounds end.
+    bool hold_distance = true;
+    /// Only the whole mesh is relaxed; nothing is done for the worst elements.
+    bool draft = false;
+};
+
+/// The second part: improves the elements, worst last, and reaches the volume by fitting
+/// phi = c instead of 0. Returns c, mm.
+double polish(TetMesh& mesh, const levelset::LevelSet& phi, const PolishOptions& options,
               ProgressSink& progress);
 
 }  // namespace myotet::meshing

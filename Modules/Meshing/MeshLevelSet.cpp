@@ -29,6 +29,17 @@ void require(bool holds, const char* field, double value, const char* rule) {
         throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
 }
 
+// What `uniform` and `draft` say, spelled out.
+Options spelled_out(Options options) {
+    if (options.uniform) {
+        options.interior_edge_length = options.smallest_edge_length = options.edge_length;
+        options.curvature_factor = options.thickness_factor = options.distance_factor = 0;
+        options.sizing = {};
+    }
+    if (options.draft) options.distance_rounds = 0;
+    return options;
+}
+
 void record(const Candidate& candidate, Summary& summary) {
     summary.selection_passes += candidate.passes;
     summary.candidate_tets = static_cast<std::int64_t>(candidate.mesh.tets.size());
@@ -115,7 +126,11 @@ public:
             }
             if (!fitted) fit_surface(mesh, phi_, progress_);
             fitted = true;
-            summary.volume_offset = meshing::polish(mesh, phi_, options_.volume, progress_);
+            summary.volume_offset = meshing::polish(mesh, phi_,
+                                                    {.volume = options_.volume,
+                                                     .hold_distance = options_.distance_factor > 0,
+                                                     .draft = options_.draft},
+                                                    progress_);
         }
         summary.seconds_compress += watch_.lap();
     }
@@ -123,7 +138,7 @@ public:
     // Refines at the few places where the finished mesh is not good enough; false
     // when there are none, or so many that the edge length is to blame.
     bool refine_faults(const TetMesh& mesh) {
-        if (!(options_.distance_factor > 0) ||
+        if (!(options_.distance_factor > 0) || options_.draft ||
             options_.compression.back() != Compression::optimization)
             return false;
         const double far = kFarFault * quality::boundary_edge_lengths(mesh).median;
@@ -200,9 +215,9 @@ void Options::validate() const {
     require(components >= 0, "number of components", components, "it must not be negative");
 }
 
-Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
-                      ProgressSink& progress) {
-    options.validate();
+Result mesh_level_set(const levelset::LevelSet& phi, const Options& asked, ProgressSink& progress) {
+    asked.validate();
+    const Options options = spelled_out(asked);
     progress.report("lattice", 0);
     Mesher mesher(phi, options, progress);
     TetMesh mesh = mesher.fit();
@@ -225,12 +240,12 @@ double forecast_tets(double volume, double area, const Options& options) {
     // A shell of kShellEdges edges around the surface at the surface edge, the
     // rest at the interior one; a BCC lattice has 12 tetrahedra a cell. Parts that
     // are thin for the edge (2 V / A is a slab's thickness) are refined.
-    const LevelPlan plan = plan_levels(options);
+    const LevelPlan plan = plan_levels(spelled_out(options));
     const double shell = std::min(volume, kShellEdges * plan.surface_edge * area);
     const auto cells = [](double v, double edge) { return v / (edge * edge * edge); };
     double tets = 12 * kGrading *
                   (cells(shell, plan.surface_edge) + cells(volume - shell, plan.coarsest_edge));
-    if (options.thickness_factor > 0 && volume > 0) {
+    if (options.thickness_factor > 0 && !options.uniform && volume > 0) {
         const double edge_per_thickness =
             plan.surface_edge * area / (2 * volume * options.thickness_factor);
         tets *= std::max(1.0, kThinFactor * std::pow(edge_per_thickness, kThinPower));

@@ -39,6 +39,11 @@ struct Options {
     /// Stop after the lattice fits when it has fewer or more tetrahedra than these;
     /// 0: no bound. The mesh is then valid but not finished.
     std::int64_t least_tets = 0, most_tets = 0;
+    /// A uniform lattice without green tetrahedra: the edge length everywhere, nothing
+    /// refined, and the surface's distance gives way to the worst elements.
+    bool uniform = false;
+    /// Fast: the promises are kept, the worst elements are not worked on.
+    bool draft = false;
     /// In order, each beginning where the one before ended; physics first, once.
     std::vector<Compression> compression = {Compression::optimization};
     SizingFunction sizing = {};  ///< empty: none
@@ -71,7 +76,7 @@ struct Result {
 /// its boundary a manifold, with no tetrahedron of four boundary nodes and no
 /// interior edge between two boundary nodes.
 /// Throws InputError (options), MeshError, ResourceError, Interrupted.
-[[nodiscard]] Result mesh_level_set(const levelset::LevelSet& phi, const Options& options,
+[[nodiscard]] Result mesh_level_set(const levelset::LevelSet& phi, const Options& asked,
                                     ProgressSink& progress);
 
 /// About how many tetrahedra a call would make, from volume and surface alone.

@@ -61,7 +61,7 @@ void BM_Compression(benchmark::State& state) {
     for (auto _ : state) {
         TetMesh mesh = candidate;
         meshing::fit_surface(mesh, level_set(), quiet);
-        benchmark::DoNotOptimize(meshing::polish(mesh, level_set(), 0, quiet));
+        benchmark::DoNotOptimize(meshing::polish(mesh, level_set(), {}, quiet));
     }
     report(state, candidate.tets.size());
 }

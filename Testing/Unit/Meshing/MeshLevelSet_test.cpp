@@ -142,14 +142,53 @@ TEST(MeshLevelSet, TwoBallsStayTwoWhenAskedAndSmallOnesAreMeshedToo) {
 
 TEST(MeshLevelSet, SameBytesOnOneThreadOrMany) {
     const auto phi = sample_level_set(cube(14), 0.5, torus);
-    const auto make = [&](int threads) {
-        const ThreadLimit limit(threads);
-        return mesh_level_set(phi, {.edge_length = 1.5, .curvature_factor = 1}, quiet).mesh;
-    };
-    const TetMesh one = make(1), many = make(0);
-    EXPECT_EQ(one.tets, many.tets);
-    ASSERT_EQ(one.points.size(), many.points.size());
-    for (std::size_t i = 0; i < one.points.size(); ++i) ASSERT_EQ(one.points[i], many.points[i]);
+    for (const bool uniform : {false, true}) {
+        const auto make = [&](int threads) {
+            const ThreadLimit limit(threads);
+            return mesh_level_set(
+                       phi, {.edge_length = 1.5, .curvature_factor = 1, .uniform = uniform}, quiet)
+                .mesh;
+        };
+        const TetMesh one = make(1), many = make(0);
+        EXPECT_EQ(one.tets, many.tets);
+        EXPECT_EQ(one.points, many.points);
+    }
+}
+
+TEST(MeshLevelSet, UniformHasOneLevelAndReachesItsAngles) {
+    // A torus whose tube is four edges thick, and balls on a rod thinner than an edge.
+    for (const auto& shape : {torus, dumbbell}) {
+        const auto phi = sample_level_set(cube(14), 0.4, shape);
+        // The factors would refine, did the lattice not have to be uniform.
+        const Result r = mesh_level_set(
+            phi, {.edge_length = 1.6, .curvature_factor = 0.2, .uniform = true}, quiet);
+        expect_promises(r.mesh);
+        EXPECT_EQ(r.summary.levels, 0);
+        const quality::ShapeSummary s = quality::measure_shapes(r.mesh);
+        // What is asked of uniform lattices on any shape.
+        EXPECT_GE(s.min_dihedral_deg, 26);
+        EXPECT_LE(s.max_dihedral_deg, 122);
+        EXPECT_LE(s.max_aspect_ratio, 3.6);
+    }
+}
+
+TEST(MeshLevelSet, UniformReachesAVolumeToo) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    const double wanted = 0.97 * 2 * std::numbers::pi * std::numbers::pi * 8 * 9;
+    const Result r =
+        mesh_level_set(phi, {.edge_length = 2, .volume = wanted, .uniform = true}, quiet);
+    expect_promises(r.mesh);
+    EXPECT_NEAR(volume(r.mesh) / wanted, 1, kVolumeAsAsked);
+}
+
+TEST(MeshLevelSet, DraftKeepsPromisesAndDistance) {
+    const auto phi = sample_level_set(cube(14), 0.5, torus);
+    const Result r = mesh_level_set(phi, {.edge_length = 1.5, .draft = true}, quiet);
+    expect_promises(r.mesh);
+    EXPECT_EQ(r.summary.distance_rounds, 0);
+    EXPECT_EQ(r.summary.fault_rounds, 0);
+    EXPECT_GT(quality::measure_shapes(r.mesh).min_dihedral_deg, 14.6);
+    EXPECT_LT(quality::surface_distance(r.mesh, torus).mean, 0.02 * 1.5);
 }
 
 TEST(MeshLevelSet, CurvatureAndSizingRefine) {
