@@ -19,11 +19,13 @@ int main(int argc, char** argv) {
         "Lengths are millimetres. Exit codes: 0 done, 2 usage, 3 bad input, 4 a mesh\n"
         "breaks a promise, 5 not converged, 6 out of a resource, 130 interrupted.");
     try {
+        add_convert(program, code);
         add_inspect(program, code);
         add_levelset(program, code);
         add_mesh(program, code);
         add_phantom(program, code);
         add_quality(program, code);
+        add_surface(program, code);
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version
         return program.exit(asked);
