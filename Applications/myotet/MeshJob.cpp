@@ -45,6 +45,7 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     LevelSetChoices choices = options.level_sets;
     if (scan.surface) choices.spacing = level_set_spacing(sizes, scan);
     TissueSets sets = make_level_sets(scan, choices, progress);
+    require_distinct_labels(sets.tissues, options.formats);
     scan.layers.clear();
     seconds["level_sets"] = watch.lap();
 
@@ -52,13 +53,18 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     RunReport report = describe_run(options, scan, sizes, sets);
     seconds["mesh"] = watch.lap();
 
+    MeshOutput meshes(options.formats, out);
     for (std::size_t t = 0; t < tissues.size(); ++t) {
         progress.check();
         progress.report("writing", static_cast<double>(t) / static_cast<double>(tissues.size()));
-        if (tissues[t].report.broken_promises.empty()) write_tissue(tissues[t], out);
+        if (tissues[t].report.broken_promises.empty()) meshes.write_tissue(tissues[t]);
         report.tissues.push_back(std::move(tissues[t].report));
         tissues[t].mesh = {};
     }
+    const std::vector<std::string> together = meshes.write_together();
+    for (TissueReport& tissue : report.tissues)
+        if (!tissue.files.empty())
+            tissue.files.insert(tissue.files.end(), together.begin(), together.end());
     seconds["write"] = watch.lap();
 
     report.run.seconds = seconds;

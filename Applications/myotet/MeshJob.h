@@ -6,6 +6,7 @@
 
 #include "Core/Progress.h"
 #include "LevelSetStage.h"
+#include "MeshOutput.h"
 #include "MeshReport.h"
 #include "Scan.h"
 #include "Sizing.h"
@@ -19,6 +20,7 @@ struct JobOptions {
     SizeOptions sizes;
     LevelSetChoices level_sets;
     std::vector<meshing::Compression> compression = {meshing::Compression::optimization};
+    MeshFormats formats;
     int threads = 0;  ///< 0: as many as the process may use
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "Core/Parallel.h"
-#include "MeshFiles/MeshFiles.h"
 #include "Meshing/Refine.h"
 #include "Text.h"
 
@@ -18,6 +17,12 @@ std::string to_text(const std::vector<meshing::Compression>& compression) {
                 (kind == meshing::Compression::springs ? "springs"
                  : kind == meshing::Compression::fem   ? "fem"
                                                        : "optimization");
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
     return text;
 }
 
@@ -73,18 +78,6 @@ std::vector<TissueMesh> mesh_to_size(TissueSets& tissue_sets, const Scan& scan,
     return tissues;
 }
 
-void write_tissue(TissueMesh& tissue, OutputFolder& out) {
-    const std::string stem =
-        file_stem(tissue.report.layer, tissue.report.label, tissue.report.name);
-    out.write(stem + ".vtu", [&](const std::filesystem::path& file) {
-        meshfiles::write_vtu(tissue.mesh, {{tissue.report.label, tissue.report.name}}, file);
-    });
-    out.write(stem + ".stl", [&](const std::filesystem::path& file) {
-        meshfiles::write_stl(boundary_surface(tissue.mesh), file);
-    });
-    tissue.report.files = {stem + ".vtu", stem + ".stl"};
-}
-
 RunReport describe_run(const JobOptions& options, const Scan& scan, const meshing::Options& sizes,
                        const TissueSets& sets) {
     const meshing::LevelPlan plan = meshing::plan_levels(sizes);
@@ -92,6 +85,7 @@ RunReport describe_run(const JobOptions& options, const Scan& scan, const meshin
     report.run = describe_level_sets(options.scan, options.level_sets, scan, sets);
     report.run.output = options.output.string();
     report.run.options_text.emplace_back("compress", to_text(options.compression));
+    report.run.options_text.emplace_back("format", joined(options.formats.extensions));
     const std::initializer_list<std::pair<std::string, double>> numbers = {
         {"tets", options.sizes.tets > 0 ? static_cast<double>(options.sizes.tets) : NAN},
         {"edge_length_mm", sizes.edge_length},

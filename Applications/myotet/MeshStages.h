@@ -5,7 +5,6 @@
 
 #include "LevelSetStage.h"
 #include "MeshJob.h"
-#include "Outputs.h"
 #include "Scan.h"
 #include "TissueMesh.h"
 
@@ -17,9 +16,6 @@ namespace myotet::app {
                                                    meshing::Options& sizes,
                                                    std::int64_t wished_tets,
                                                    ProgressSink& progress);
-
-/// Writes the tissue's tetrahedra and surface and notes the files' names.
-void write_tissue(TissueMesh& tissue, OutputFolder& out);
 
 /// The run's part of the report, but for times and tissues.
 [[nodiscard]] RunReport describe_run(const JobOptions& options, const Scan& scan,

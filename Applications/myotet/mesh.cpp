@@ -54,6 +54,7 @@ void add_options(CLI::App& command, Arguments& a) {
         ->transform(CLI::CheckedTransformer(kinds))
         ->delimiter(',')
         ->type_name("KINDS");
+    add_format_options(command, a.job.formats);
     command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
