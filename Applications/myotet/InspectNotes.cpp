@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "InspectReport.h"
+#include "LevelSet/SliceShape.h"
 #include "Text.h"
 
 namespace myotet::app {
@@ -15,7 +16,6 @@ using segmentation::Piece;
 
 constexpr std::int64_t kSpeck = 8;       // voxels: at most two a side
 constexpr double kThinShare = 0.02;      // of a label's voxels; every tip ends in a few
-constexpr double kThickSlices = 2;       // from here on shapes are interpolated between slices
 constexpr double kVisibleAngle = 0.01;   // degrees: less is rounding in the header
 constexpr double kLongerThanTwo = 1.01;  // voxels: the edge length was made longer on purpose
 constexpr std::size_t kListed = 4;
@@ -105,7 +105,7 @@ void note_grid(InspectReport& report) {
     const GridReport& grid = report.grid;
     Vec3 sorted = grid.spacing;
     std::sort(sorted.begin(), sorted.end());
-    if (sorted[2] > kThickSlices * sorted[1])
+    if (sorted[2] >= levelset::kThickSlices * sorted[1])
         report.notes.push_back("Slices are " + readable(sorted[2]) + " mm apart, " +
                                readable(sorted[2] / sorted[1]) + " times the " +
                                readable(sorted[1]) +

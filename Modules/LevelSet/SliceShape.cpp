@@ -293,7 +293,7 @@ SliceShape slice_shape(const RegionMap& map, RegionMap::Owner owner, int axis,
 
 int thick_axis(const Vec3& plane_spacing) {
     for (int a = 0; a < 3; ++a)
-        if (plane_spacing[a] > 2 * larger_pixel_side(plane_spacing, a)) return a;
+        if (plane_spacing[a] >= kThickSlices * larger_pixel_side(plane_spacing, a)) return a;
     return -1;
 }
 

@@ -33,9 +33,9 @@ double top(const SliceShape& shape, double x, double y, double from, double to) 
 }
 
 TEST(SliceShape, thick_slices_are_those_above_twice_the_pixels) {
-    EXPECT_EQ(thick_axis({1, 1, 2.1}), 2);
-    EXPECT_EQ(thick_axis({3, 0.5, 1}), 0);
-    EXPECT_EQ(thick_axis({1, 1, 2}), -1);
+    EXPECT_EQ(thick_axis({1, 1, 4}), 2);
+    EXPECT_EQ(thick_axis({5, 0.5, 1}), 0);
+    EXPECT_EQ(thick_axis({1, 1, 3.6}), -1);
     EXPECT_EQ(thick_axis({0.4, 1, 1}), -1);
     EXPECT_DOUBLE_EQ(larger_pixel_side({0.4, 5, 0.6}, 1), 0.6);
 }
