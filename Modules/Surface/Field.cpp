@@ -11,6 +11,7 @@ namespace myotet::surface {
 namespace {
 
 constexpr int kSteps = 12;
+constexpr double kFarthest = 2;  // in reaches, from where it began
 // Of the reach, which is about an edge: far below the hundredth that is promised.
 constexpr double kClose = 1e-4;
 // Squared sine of the angle between two gradients below which a step along both
@@ -49,6 +50,8 @@ Vec3 iterate(const Vec3& from, double reach, const Evaluate& evaluate) {
         }
         if (error <= kClose * reach) break;
         at += no_longer_than(step, reach);
+        // Beyond, it is on its way to another part of the surface.
+        if (!((at - from).norm() <= kFarthest * reach)) break;
     }
     return best;
 }

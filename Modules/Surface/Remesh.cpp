@@ -37,8 +37,10 @@ void split_in_middle(Fans& fans, const Guide& guide, std::int32_t a, std::int32_
 }
 
 void split_long_edges(Fans& fans, const Guide& guide) {
-    // Triangles made on the way are visited too.
-    for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+    // Triangles made on the way wait for the next round: about two points on
+    // either side of a thin sheet a single pass could go on for ever.
+    const std::size_t count = fans.triangles.size();
+    for (std::size_t t = 0; t < count; ++t)
         for (int i = 0; i < 3 && fans.alive(t); ++i) {
             const std::int32_t a = fans.triangles[t][i], b = fans.triangles[t][(i + 1) % 3];
             if (!(length(fans, a, b) > kTooLong * wished(fans, a, b))) continue;
