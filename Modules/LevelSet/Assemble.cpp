@@ -128,29 +128,25 @@ float distance_to_feet(const Band& band, const FarField& far, const Index3& b, c
     return static_cast<float>((point - foot).norm());
 }
 
-// Beyond the band: inside, where depth decides how coarse elements may be, and
-// beside the band, so that slopes at its edge are right, the distance to a
-// foot; farther outside the coarse field; none less than the band's width. On faces towards bricks
-// that hold nothing but the coarse field, that.
-constexpr float kBeside = 2;  // spacings
+// Beyond the band: inside, where depth decides how coarse elements may be, the
+// distance to a foot; outside, the coarse field; both no less than the band's
+// width. On faces towards bricks that hold nothing but the coarse field, that.
 void fill_brick(const Band& band, const FarField& far, const Index3& b, LevelSet& phi, float* out) {
     Brick coarse;
     gather(band, b, 0, 1, out);
     interpolate_coarse(phi, b, coarse);
     const Neighbours neighbours(phi, b);
     const float width = band.width;
-    const float beside = width + kBeside * static_cast<float>(band.spacing);
     for (int k = 0, at = 0; k < kSamples; ++k)
         for (int j = 0; j < kSamples; ++j)
             for (int i = 0; i < kSamples; ++i, ++at) {
                 if (std::abs(out[at]) < width) continue;
                 if (!neighbours.all(i, j, k))
                     out[at] = coarse[at];
-                else if (out[at] > 0 && coarse[at] > beside)
-                    out[at] = coarse[at];
+                else if (out[at] > 0)
+                    out[at] = std::max(width, coarse[at]);
                 else
-                    out[at] = std::copysign(
-                        std::max(width, distance_to_feet(band, far, b, {i, j, k})), out[at]);
+                    out[at] = -std::max(width, distance_to_feet(band, far, b, {i, j, k}));
             }
 }
 

@@ -10,7 +10,7 @@ bool pull(const Band& band, Vec3& point) {
     // x <- x - phi grad phi / |grad phi|^2. A point short of the interface would
     // make distances too small, so that arriving is checked.
     constexpr int kSteps = 6;
-    constexpr double kClose = 0.003;  // spacings; slopes err by about as much
+    constexpr double kClose = 0.004;  // spacings; slopes err by about as much
     for (int step = 0; step < kSteps; ++step) {
         const Sample s = sample(band, point);
         if (std::abs(s.value) < kClose * band.spacing) return true;
