@@ -24,7 +24,7 @@ namespace myotet::levelset {
 namespace {
 
 // Half widths of the bands, in samples.
-constexpr double kWorkWidth = 3, kResultWidth = 5;
+constexpr double kWorkWidth = 3, kResultWidth = 3;
 // The flow lasts longer than a corner needs to reach the allowance, so that
 // the steps of slowly sloping surfaces, several voxels long, are levelled too;
 // locks hold what has arrived.
@@ -98,7 +98,7 @@ WantedVolumes wanted_volumes(const VoxelScene& scene, const LabelGrid& grid,
 LevelSet finish_band(RegionBand& work, const Seams& seams) {
     Band band = refit(work.band, static_cast<float>(kResultWidth * work.band.spacing));
     work = {};
-    redistance(band, Seeds::keep_cells, 1);
+    redistance(band, Seeds::keep_cells, 2);
     LevelSet phi = assemble(band);
     attach_seams(phi, seams);
     return phi;
