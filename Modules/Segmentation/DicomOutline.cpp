@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <span>
 #include <string_view>
@@ -86,12 +87,16 @@ std::uint32_t Walk::number(std::size_t at, std::size_t size) const {
     return value;
 }
 
-bool is_long_form(std::string_view vr) {
-    for (const char* one :
-         {"OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV", "UC", "UN", "UR", "UT", "UV"})
-        if (vr == one) return true;
-    return false;
+bool is_one_of(std::string_view vr, std::span<const std::string_view> known) {
+    return std::ranges::find(known, vr) != known.end();
 }
+
+// Value representations [DICOM PS3.5, sec. 6.2] with a length of two bytes, and of four.
+constexpr std::array<std::string_view, 21> kShortForms = {"AE", "AS", "AT", "CS", "DA", "DS", "DT",
+                                                          "FD", "FL", "IS", "LO", "LT", "PN", "SH",
+                                                          "SL", "SS", "ST", "TM", "UI", "UL", "US"};
+constexpr std::array<std::string_view, 13> kLongForms = {"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
+                                                         "SV", "UC", "UN", "UR", "UT", "UV"};
 
 /// Reads tag, value representation and length; `at_` is then at the value.
 Element Walk::head() {
@@ -107,7 +112,10 @@ Element Walk::head() {
     const bool delimiter = element.tag >> 16 == 0xFFFE;
     if (level.is_explicit && !delimiter) {
         const std::string_view vr(reinterpret_cast<const char*>(bytes_.data()) + at_ + 4, 2);
-        const bool long_form = is_long_form(vr);
+        const bool long_form = is_one_of(vr, kLongForms);
+        // Readers differ in the length they take behind any other.
+        if (!long_form && !is_one_of(vr, kShortForms))
+            damaged("hold a value representation that DICOM does not know");
         need(long_form ? 12 : 8);
         element.length = long_form ? number(at_ + 8, 4) : number(at_ + 6, 2);
         element.sequence = vr == "SQ" || element.length == kUndefined;

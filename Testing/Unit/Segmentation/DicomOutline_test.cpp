@@ -81,6 +81,14 @@ TEST_F(DicomOutline, ReadsImplicitAndBigEndianElements) {
     EXPECT_EQ(reason(file_of(big, "1.2.840.10008.1.2.2")), "");
 }
 
+// DCMTK takes four bytes of length behind such a mark, and asks for that much memory.
+TEST_F(DicomOutline, RefusesAnUnknownValueRepresentation) {
+    const std::string unknown("\x08\0\x3e\x10L\0\0\0\0\0\0\x68", 12);
+    EXPECT_THAT(reason(file_of(unknown)), HasSubstr("value representation"));
+    EXPECT_THAT(reason(file_of(element(0x00080060, "ZZ", "SEG"))),
+                HasSubstr("value representation"));
+}
+
 TEST_F(DicomOutline, RefusesNestingThatWouldFillAStack) {
     // In all three forms: with lengths, without, and with neither lengths nor representations.
     std::string closed = element(0x00080060, "CS", "CT"), open, implicit;
