@@ -165,7 +165,8 @@ private:
 
     // Where repair runs into the end of the lattice, a lattice that reaches farther.
     Candidate select() {
-        const SelectOptions options{.components = options_.components};
+        const SelectOptions options{.topology = options_.topology,
+                                    .components = options_.components};
         try {
             return select_candidate(lattice_, options, progress_);
         } catch (const MeshError&) {

@@ -9,6 +9,7 @@
 #include "Core/TetMesh.h"
 #include "LevelSet/LevelSet.h"
 #include "Meshing/Physics.h"
+#include "Meshing/Select.h"
 
 namespace myotet::meshing {
 
@@ -46,6 +47,9 @@ struct Options {
     bool draft = false;
     /// In order, each beginning where the one before ended; physics first, once.
     std::vector<Compression> compression = {Compression::optimization};
+    /// Other than repaired, of what mesh_level_set promises only positive tetrahedra are
+    /// kept; the mesh may be in pieces.
+    Topology topology = Topology::repaired;
     SizingFunction sizing = {};  ///< empty: none
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;

@@ -67,8 +67,16 @@ Candidate select_candidate(RedGreenLattice& lattice, const SelectOptions& option
         const lattice::LatticeMesh mesh = lattice.mesh();
         Selection selection(mesh.tets, lattice.values(),
                             [&](std::int32_t n) { return lattice.position(n); });
-        selection.envelop_inside();
+        if (options.topology == Topology::inside)
+            selection.select_inside();
+        else
+            selection.envelop_inside();
         ++passes;
+        if (options.topology != Topology::repaired) {
+            Candidate c = compact(lattice, selection, mesh);
+            c.passes = passes;
+            return c;
+        }
         if (pass < options.refinement_passes) {
             // First pass of the paper: bisect what is wrong, select anew.
             const Trouble trouble = selection.examine(false);

@@ -10,8 +10,17 @@
 
 namespace myotet::meshing {
 
+/// Which tetrahedra of the lattice are chosen. Only the first keeps the promises;
+/// the others show what the passes are worth.
+enum class Topology {
+    repaired,   ///< at enveloped nodes, then repaired [Teran05, sec. 6]
+    enveloped,  ///< at enveloped nodes, as they are
+    inside,     ///< those whose mean phi is negative, as they are
+};
+
 /// How the candidate is chosen.
 struct SelectOptions {
+    Topology topology = Topology::repaired;
     /// Connected components that the candidate shall have; pieces beyond that
     /// are joined along the deepest way between them.
     int components = 1;
@@ -34,7 +43,8 @@ struct Candidate {
 /// Selects all tetrahedra at enveloped nodes (phi < 0 and every crossing edge
 /// at least 25 % inside), then repairs the selection until its boundary is a
 /// manifold, no tetrahedron has four boundary nodes and no interior edge joins
-/// two boundary nodes [Teran05, sec. 6]. May refine the lattice.
+/// two boundary nodes [Teran05, sec. 6]. May refine the lattice. Without repair none
+/// of this is promised, and there may be more components.
 /// Throws MeshError when the selection reaches the lattice's end.
 [[nodiscard]] Candidate select_candidate(lattice::RedGreenLattice& lattice,
                                          const SelectOptions& options, ProgressSink& progress);

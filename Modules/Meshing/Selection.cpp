@@ -134,6 +134,16 @@ void Selection::envelop_inside() {
         throw MeshError("no lattice node lies inside; ask for a shorter edge length");
 }
 
+void Selection::select_inside() {
+    bool any = false;
+    for (std::size_t t = 0; t < tets_.size(); ++t) {
+        const Tet& n = tets_[t];
+        in_mesh_[t] = phi_[n[0]] + phi_[n[1]] + phi_[n[2]] + phi_[n[3]] < 0;
+        any |= in_mesh_[t] != 0;
+    }
+    if (!any) throw MeshError("no lattice tetrahedron lies inside; ask for a shorter edge length");
+}
+
 Trouble Selection::examine(bool avoid_three_faces) const {
     std::vector<Triangle> faces;
     for (std::size_t t = 0; t < tets_.size(); ++t) {

@@ -39,6 +39,8 @@ public:
     /// Envelops nodes with phi < 0 all of whose crossing edges are at least 25 %
     /// inside; where there is none, the deepest node.
     void envelop_inside();
+    /// Selects the tetrahedra whose mean phi is negative, and envelops nothing.
+    void select_inside();
     /// What is wrong now.
     [[nodiscard]] Trouble examine(bool avoid_three_faces) const;
     /// Envelops troubled nodes and the deeper end of troubled edges. Returns how

@@ -245,3 +245,25 @@ TEST(Options, SayWhichFieldIsWrong) {
     EXPECT_THROW((void)mesh_level_set(phi, {.edge_length = 2, .smallest_edge_length = 3}, quiet),
                  InputError);
 }
+
+TEST(MeshLevelSet, WithoutRepairThePromisesBreakAndNothingInverts) {
+    // Two walls that meet at a narrow angle: the lattice cannot follow them.
+    const auto wedge = [](const Vec3& p) {
+        return std::max({p.norm() - 10, p.z() - 0.15 * (p.x() + 8), -p.z()});
+    };
+    const auto phi = sample_level_set(cube(14), 0.25, wedge);
+    Options options{.edge_length = 2, .thickness_factor = 0, .distance_factor = 0};
+    expect_promises(mesh_level_set(phi, options, quiet).mesh);
+    options.topology = Topology::enveloped;
+    const TetMesh enveloped = mesh_level_set(phi, options, quiet).mesh;
+    options.topology = Topology::inside;
+    const TetMesh inside = mesh_level_set(phi, options, quiet).mesh;
+    for (const TetMesh* mesh : {&enveloped, &inside}) {
+        EXPECT_EQ(quality::measure_shapes(*mesh).inverted_tets, 0);
+        const auto t = quality::measure_topology(mesh->tets, mesh->points.size());
+        EXPECT_GT(t.interior_edges_joining_boundary_nodes + t.non_manifold_vertices, 0);
+    }
+    EXPECT_GT(
+        quality::measure_topology(inside.tets, inside.points.size()).tets_with_four_boundary_nodes,
+        0);
+}
