@@ -23,6 +23,22 @@ std::vector<RestTet> rest_tets(const TetMesh& mesh) {
     return rest;
 }
 
+std::array<Mat3, 4> RestTet::stiffness_row(const Tangent& tangent, int corner) const {
+    const Vec3 gradient = corner == 0 ? Vec3(-inverse_edges.colwise().sum().transpose())
+                                      : Vec3(inverse_edges.row(corner - 1).transpose());
+    const Eigen::Matrix<double, 3, 9> row =
+        volume * (gradient[0] * tangent.topRows<3>() + gradient[1] * tangent.middleRows<3>(3) +
+                  gradient[2] * tangent.bottomRows<3>());
+    std::array<Mat3, 4> blocks;
+    for (int b = 0; b < 3; ++b)
+        blocks[b + 1] = inverse_edges(b, 0) * row.leftCols<3>() +
+                        inverse_edges(b, 1) * row.middleCols<3>(3) +
+                        inverse_edges(b, 2) * row.rightCols<3>();
+    // Moving all corners together costs nothing.
+    blocks[0] = -blocks[1] - blocks[2] - blocks[3];
+    return blocks;
+}
+
 Corners cauchy_forces(const Corners& x, const Mat3& sigma) {
     Corners normal;  // area-weighted, of the face opposite each node
     for (int i = 0; i < 4; ++i) {

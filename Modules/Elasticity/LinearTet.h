@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Core/TetMesh.h"
+#include "Elasticity/Tangent.h"
 
 namespace myotet::elasticity {
 
@@ -36,6 +37,10 @@ struct RestTet {
         const Mat3 H = -volume * P * inverse_edges.transpose();
         return {-H.col(0) - H.col(1) - H.col(2), H.col(0), H.col(1), H.col(2)};
     }
+
+    /// Derivative of minus the force on a corner by the positions of all corners, N/mm:
+    /// K_ab = V sum_jl dP_.j/dF_.l (grad N_a)_j (grad N_b)_l.
+    [[nodiscard]] std::array<Mat3, 4> stiffness_row(const Tangent& tangent, int corner) const;
 };
 
 /// Throws MeshError when the tetrahedron is not positive.

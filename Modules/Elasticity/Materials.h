@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Core/Geometry.h"
+#include "Elasticity/Tangent.h"
 
 namespace myotet::elasticity {
 
@@ -20,8 +20,8 @@ struct Lame {
 [[nodiscard]] double sound_speed(const Lame& lame, double density);
 
 // A law gives, for a deformation gradient F = dx/du, the energy in a unit of
-// undeformed volume (MPa = mJ/mm^3) and its derivative, the first
-// Piola-Kirchhoff stress P = dPsi/dF (MPa).
+// undeformed volume (MPa = mJ/mm^3), its derivative, the first Piola-Kirchhoff
+// stress P = dPsi/dF (MPa), and the derivative of that, the tangent dP/dF (MPa).
 
 /// Psi = mu G : G + lambda / 2 tr(G)^2, G = (F^T F - I) / 2 [Teran05, sec. 7.2].
 /// Gives way when it is compressed below about 0.6.
@@ -29,6 +29,7 @@ struct StVenantKirchhoff {
     Lame lame;
     [[nodiscard]] double energy(const Mat3& F) const;
     [[nodiscard]] Mat3 stress(const Mat3& F) const;
+    [[nodiscard]] Tangent tangent(const Mat3& F) const;
 };
 
 /// Psi = mu / 2 (tr(F^T F) - 3) - mu ln J + lambda / 2 (ln J)^2, J = det F, whose
@@ -38,6 +39,7 @@ struct NeoHookean {
     Lame lame;
     [[nodiscard]] double energy(const Mat3& F) const;
     [[nodiscard]] Mat3 stress(const Mat3& F) const;
+    [[nodiscard]] Tangent tangent(const Mat3& F) const;
 };
 
 /// Damping: Cauchy stress 2 shear D + bulk tr(D) I, D = sym(dF/dt F^-1); linear

@@ -60,8 +60,23 @@ inline void expect_no_push(const Corners& x, const Corners& f, double scale) {
     EXPECT_LT(torque.norm(), kRounding * 50 * scale);
 }
 
+/// The tangent is symmetric and the derivative of the stress, and it turns with the
+/// material: dP(Q F)[Q dF] = Q dP(F)[dF].
+template <class Law>
+void expect_tangent(const Law& law, const Mat3& F, const Mat3& Q, const Mat3& dF) {
+    const Tangent C = law.tangent(F);
+    const double scale = 1 + C.norm();
+    EXPECT_LT((C - C.transpose()).norm(), kRounding * scale);
+    const Mat3 slope = (law.stress(F + kStep * dF) - law.stress(F - kStep * dF)) / (2 * kStep);
+    EXPECT_LT((C * dF.reshaped() - slope.reshaped()).norm(), kDifference * 20 * scale);
+    const Mat3 turned = (law.tangent(Q * F) * (Q * dF).reshaped()).reshaped(3, 3);
+    const Mat3 still = (C * dF.reshaped()).reshaped(3, 3);
+    EXPECT_LT((turned - Q * still).norm(), 1e-10 * scale);
+}
+
 /// The laws that every constitutive law obeys: zero at rest, objectivity, stress
-/// the derivative of the energy, no total force and no torque on a tetrahedron.
+/// the derivative of the energy and the tangent that of the stress, no total force and no
+/// torque on a tetrahedron.
 template <class Law>
 void expect_law(const Law& law) {
     EXPECT_NEAR(law.energy(Mat3::Identity()), 0, kRounding);
@@ -81,6 +96,7 @@ void expect_law(const Law& law) {
             const double slope = (law.energy(up) - law.energy(down)) / (2 * kStep);
             EXPECT_NEAR(law.stress(F).data()[i], slope, kDifference * 20 * scale);
         }
+        expect_tangent(law, F, Q, random_matrix(random, 1));
         const Corners x = moved(some_tet(), F);
         expect_no_push(x, rest.forces(law.stress(rest.gradient(x))), scale * 10);
     }

@@ -39,6 +39,28 @@ TEST(RestTet, ForcesAreMinusTheGradientOfTheEnergy) {
     }
 }
 
+TEST(RestTet, StiffnessIsMinusTheDerivativeOfTheForces) {
+    const NeoHookean law{lame_from(0.1, 0.4)};
+    const RestTet rest = rest_tet(kit::some_tet());
+    const auto forces = [&](const Corners& x) { return rest.forces(law.stress(rest.gradient(x))); };
+    for (const Mat3& F : kit::deformations()) {
+        const Corners x = kit::moved(kit::some_tet(), F);
+        const Tangent C = law.tangent(F);
+        for (int b = 0; b < 4; ++b)
+            for (int k = 0; k < 3; ++k) {
+                Corners up = x, down = x;
+                up[b][k] += kit::kStep;
+                down[b][k] -= kit::kStep;
+                const Corners fu = forces(up), fd = forces(down);
+                for (int a = 0; a < 4; ++a) {
+                    const Vec3 slope = (fd[a] - fu[a]) / (2 * kit::kStep);
+                    const Vec3 column = rest.stiffness_row(C, a)[b].col(k);
+                    EXPECT_LT((column - slope).norm(), 20 * kit::kDifference * (1 + C.norm()));
+                }
+            }
+    }
+}
+
 TEST(CauchyForces, AreThoseOfTheFirstPiolaKirchhoffStress) {
     const NeoHookean law{lame_from(0.1, 0.4)};
     const RestTet rest = rest_tet(kit::some_tet());
