@@ -17,17 +17,21 @@ namespace {
 using Parse = RawMesh (*)(std::string_view, const fs::path&);
 using Compose = std::string (*)(const NamedMesh&);
 
-/// The formats of text or bytes that one function parses and one composes.
+/// The formats of one file that one function parses, and most of which one composes.
 struct Plain {
     std::string_view extension;
     Parse parse;
-    Compose text;
+    Compose text = nullptr;
     Compose binary = nullptr;
 };
-constexpr Plain kPlain[] = {
-    {".msh", parse_gmsh, gmsh_text, gmsh_binary}, {".feb", parse_febio, febio_text},
-    {".inp", parse_abaqus, abaqus_text},          {".bdf", parse_nastran, nastran_text},
-    {".nas", parse_nastran, nastran_text},        {".mesh", parse_medit, medit_text}};
+constexpr Plain kPlain[] = {{".msh", parse_gmsh, gmsh_text, gmsh_binary},
+                            {".feb", parse_febio, febio_text},
+                            {".inp", parse_abaqus, abaqus_text},
+                            {".bdf", parse_nastran, nastran_text},
+                            {".nas", parse_nastran, nastran_text},
+                            {".mesh", parse_medit, medit_text},
+                            {".vtu", parse_vtu},
+                            {".xdmf", parse_xdmf}};
 
 const Plain* plain_format(const std::string& extension) {
     const auto found = std::ranges::find(kPlain, extension, &Plain::extension);
@@ -101,15 +105,18 @@ std::vector<fs::path> files_of(const fs::path& file) {
 NamedMesh read_mesh(const fs::path& file) {
     const std::string extension = lower_extension(file);
     if (is_surface_file(file)) return read_named_surface(file);
-    if (extension == ".vtu") return read_named_vtu(file);
     const Plain* plain = plain_format(extension);
-    if (!plain && extension != ".xdmf")
+    if (!plain)
         throw InputError(file.string() + ": '" + extension +
                          "' is no mesh format that is read; use one of .off" +
                          list_of_extensions());
     const std::string content = read_bytes(file);
     if (content.empty()) throw InputError(file.string() + ": is empty; a mesh is needed");
-    return checked(plain ? plain->parse(content, file) : parse_xdmf(content, file), file);
+    return checked(plain->parse(content, file), file);
+}
+
+TetMesh read_vtu(const fs::path& file) {
+    return checked(parse_vtu(read_bytes(file), file), file).mesh;
 }
 
 void write_mesh(const NamedMesh& mesh, const fs::path& file, Encoding encoding) {
@@ -122,7 +129,7 @@ void write_mesh(const NamedMesh& mesh, const fs::path& file, Encoding encoding) 
     if (format->holds == Holds::tetrahedra && mesh.mesh.tets.empty())
         throw InputError(file.string() + ": " + extension +
                          " holds tetrahedra, but the mesh is a surface; mesh it first");
-    if (const Plain* plain = plain_format(extension))
+    if (const Plain* plain = plain_format(extension); plain && plain->text)
         return write_atomically(
             file,
             (encoding == Encoding::binary && plain->binary ? plain->binary : plain->text)(mesh));

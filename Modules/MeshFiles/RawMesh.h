@@ -72,6 +72,7 @@ void require_positive_numbers(const NamedMesh& mesh, std::string_view format);
 [[nodiscard]] RawMesh parse_abaqus(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawMesh parse_nastran(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawMesh parse_medit(std::string_view content, const std::filesystem::path& file);
+[[nodiscard]] RawMesh parse_vtu(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawMesh parse_xdmf(std::string_view content, const std::filesystem::path& file);
 
 /// Abaqus knows no end of a file: this is the last line of ours, so that one
@@ -98,8 +99,6 @@ struct TaggedSurface {
 
 /// A surface file as face sets without tetrahedra.
 [[nodiscard]] NamedMesh read_named_surface(const std::filesystem::path& file);
-/// A .vtu with the names of its labels.
-[[nodiscard]] NamedMesh read_named_vtu(const std::filesystem::path& file);
 
 /// Writes both files: the .xdmf and, beside it, the .h5.
 void write_xdmf(const NamedMesh& mesh, const std::filesystem::path& file);

@@ -35,11 +35,9 @@ struct RawSurface {
 [[nodiscard]] RawSurface parse_off(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawSurface parse_stl(std::string_view content, const std::filesystem::path& file);
 [[nodiscard]] RawSurface parse_ply(std::string_view content, const std::filesystem::path& file);
+[[nodiscard]] RawSurface parse_vtp(std::string_view content, const std::filesystem::path& file);
 
 /// A face set's name as a group of an .obj.
 [[nodiscard]] std::string obj_group(std::string name);
-
-/// By VTK's reader, with its complaints turned into exceptions.
-[[nodiscard]] RawSurface read_vtp(const std::filesystem::path& file);
 
 }  // namespace myotet::meshfiles

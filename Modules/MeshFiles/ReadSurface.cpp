@@ -23,7 +23,7 @@ RawSurface read_raw(const fs::path& file) {
     if (extension == ".obj") return parse_obj(content, file);
     if (extension == ".off") return parse_off(content, file);
     if (extension == ".stl") return parse_stl(content, file);
-    return extension == ".ply" ? parse_ply(content, file) : read_vtp(file);
+    return extension == ".ply" ? parse_ply(content, file) : parse_vtp(content, file);
 }
 
 void check_numbers(const RawSurface& raw, const fs::path& file) {

@@ -103,10 +103,8 @@ TEST_P(TetFormat, CutFilesAreRefused) {
     write_mesh(three_tets(), file, c.encoding);
     const auto heavy = files_of(file).front();
     const std::string whole = read_bytes(heavy);
-    // VTK does not miss the last tags of a .vtu whose numbers are all there.
-    const std::size_t end = heavy.extension() == ".vtu" ? 40 : 1;
     ::testing::internal::CaptureStderr();
-    for (std::size_t length = 0; length + end < whole.size(); length += 1 + whole.size() / 150) {
+    for (std::size_t length = 0; length + 1 < whole.size(); length += 1 + whole.size() / 150) {
         write_bytes(heavy, whole.substr(0, length));
         EXPECT_THROW((void)read_mesh(file), Error) << length;
     }
@@ -116,8 +114,6 @@ TEST_P(TetFormat, CutFilesAreRefused) {
 TEST_P(TetFormat, ChangedBytesNeverCrash) {
     const TemporaryFolder folder;
     const Case& c = GetParam();
-    if (std::string(c.extension) == ".vtu")
-        GTEST_SKIP() << "VTK 9.1 reads it, and crashes on some damaged headers: README, Limits";
     const auto file = folder / (std::string("a") + c.extension);
     write_mesh(three_tets(), file, c.encoding);
     const auto heavy = files_of(file).front();
