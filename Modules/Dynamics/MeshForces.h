@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "Core/TetMesh.h"
 #include "Dynamics/ForceField.h"
@@ -17,6 +18,10 @@ public:
     CornerSums(const std::vector<Tet>& tets, std::size_t nodes);
     /// Adds the corners' vectors up at the nodes.
     void add(const std::vector<elasticity::Corners>& corners, NodeVectors& to) const;
+    /// Where a node occurs: 4 * tetrahedron + corner, in increasing order.
+    [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t node) const {
+        return {corner_.data() + start_[node], corner_.data() + start_[node + 1]};
+    }
 
 private:
     std::vector<std::size_t> start_;

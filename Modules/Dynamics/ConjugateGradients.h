@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Dynamics/BlockMatrix.h"
+
+namespace myotet::dynamics {
+
+struct LinearOptions {
+    double tolerance = 1e-8;  ///< of the residual's norm, beside the right hand side's
+    int iterations = 5000;    ///< at most
+};
+
+struct LinearSummary {
+    bool converged = false;
+    bool indefinite = false;  ///< a direction of no or negative curvature was met
+    int iterations = 0;
+    double residual = 0;  ///< relative
+};
+
+/// Solves K x = right for the nodes that are not `held`; held ones keep the values that
+/// `x` has, free ones begin there. Conjugate gradients, preconditioned by the inverses
+/// of the diagonal blocks. K shall be symmetric. Where K is not positive the solution
+/// so far stays in x and `indefinite` is set. Same bytes on any number of threads.
+/// `held` has |V| entries, not 0 for held nodes.
+[[nodiscard]] LinearSummary solve(const BlockMatrix& K, const std::vector<char>& held,
+                                  const NodeVectors& right, const LinearOptions& options,
+                                  NodeVectors& x);
+
+}  // namespace myotet::dynamics

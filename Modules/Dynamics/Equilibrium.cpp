@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Dynamics/Equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "Core/Errors.h"
+#include "Dynamics/NodeAlgebra.h"
+
+namespace myotet::dynamics {
+namespace {
+
+// Part of the way to the first flat tetrahedron that a step may go.
+constexpr double kSafety = 0.9;
+// Armijo's part of the promised decrease.
+constexpr double kDecrease = 1e-4;
+// Below what rounding does to sums of energies, in epsilons, the slope decides.
+constexpr double kEnergyRounding = 64, kForceRounding = 16;
+// ... and shall become flatter by this.
+constexpr double kFlatter = 0.9;
+constexpr int kMostHalvings = 25;
+// The first solves need no more than a direction.
+constexpr double kLoosest = 0.1, kTightest = 1e-10;
+void require(bool holds, const char* field, double value, const char* rule) {
+    if (!holds)
+        throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
+}
+
+// What rounding of the positions alone does to forces and energies: epsilon times
+// |K| |x|, and |K| times the squared distance of neighbours.
+struct Rounding {
+    double force = 0, energy = 0;
+
+    Rounding(const BlockMatrix& K, const NodeVectors& x) {
+        double reach = 0, squares = 0;
+        for (std::size_t n = 0; n < x.size(); ++n) {
+            double distance = 0;
+            for (std::size_t i = K.row_start[n]; i < K.row_start[n + 1]; ++i)
+                distance = std::max(distance, (x[K.column[i]] - x[n]).squaredNorm());
+            const auto node = static_cast<std::int32_t>(n);
+            const double stiffness = K.value[K.at(node, node)].norm();
+            squares += stiffness * stiffness;
+            energy += stiffness * distance;
+            reach = std::max(reach, x[n].norm());
+        }
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        force = kForceRounding * epsilon * reach * std::sqrt(squares);
+        energy *= kEnergyRounding * epsilon;
+    }
+};
+
+}  // namespace
+
+void EquilibriumOptions::validate() const {
+    require(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "it must be within 0 and 1");
+    require(iterations > 0, "number of iterations", iterations, "it must be positive");
+    require(linear_iterations > 0, "number of linear iterations", linear_iterations,
+            "it must be positive");
+}
+
+Equilibrium::Equilibrium(std::vector<Potential*> potentials, std::size_t nodes,
+                         const std::vector<std::int32_t>& held, const EquilibriumOptions& options)
+    : potentials_(std::move(potentials)), held_(nodes, 0), options_(options) {
+    options_.validate();
+    require(!potentials_.empty(), "number of potentials", 0, "there must be at least one");
+    for (const std::int32_t n : held) {
+        require(n >= 0 && n < static_cast<std::int32_t>(nodes), "held node", n,
+                "it must be one of the nodes");
+        held_[n] = 1;
+    }
+    Cliques all;
+    for (const Potential* potential : potentials_) {
+        const Cliques some = potential->cliques();
+        for (std::size_t c = 0; c < some.size(); ++c)
+            all.add({some.node.data() + some.start[c], some.node.data() + some.start[c + 1]});
+    }
+    K_ = block_pattern(nodes, all);
+}
+
+double Equilibrium::move_to(const NodeVectors& x) {
+    double energy = 0;
+    for (Potential* potential : potentials_) energy += potential->move_to(x);
+    return energy;
+}
+
+NodeVectors Equilibrium::forces() const {
+    NodeVectors sum(held_.size(), Vec3::Zero());
+    for (const Potential* potential : potentials_) potential->add_forces(sum);
+    return sum;
+}
+
+void Equilibrium::build(Curvature curvature) {
+    K_.set_zero();
+    for (const Potential* potential : potentials_) potential->add_stiffness(curvature, K_);
+}
+
+double Equilibrium::largest_step(const NodeVectors& x, const NodeVectors& by) const {
+    double step = 1;
+    for (const Potential* potential : potentials_)
+        step = std::min(step, potential->largest_step(x, by));
+    return step;
+}
+
+// Root mean forces: of free nodes beside all.
+double Equilibrium::residual(const NodeVectors& forces) const {
+    NodeVectors left = forces;
+    for (std::size_t n = 0; n < left.size(); ++n)
+        if (held_[n]) left[n].setZero();
+    const double all = dot(forces, forces);
+    return all > 0 ? std::sqrt(dot(left, left) / all) : 0;
+}
+
+LinearSummary Equilibrium::direction(const NodeVectors& right, double tolerance, NodeVectors& d,
+                                     bool& convex) {
+    const LinearOptions options{tolerance, options_.linear_iterations};
+    const NodeVectors start = d;
+    build(Curvature::exact);
+    LinearSummary summary = solve(K_, held_, right, options, d);
+    convex = summary.indefinite;
+    if (!convex) return summary;
+    d = start;
+    build(Curvature::convex);
+    const int before = summary.iterations;
+    summary = solve(K_, held_, right, options, d);
+    summary.iterations += before;
+    return summary;
+}
+
+LinearSummary Equilibrium::predict(const NodeVectors& x, NodeVectors& by) {
+    for (std::size_t n = 0; n < by.size(); ++n)
+        if (!held_[n]) by[n].setZero();
+    (void)move_to(x);
+    bool convex = false;
+    return direction(forces(), kLoosest * kLoosest, by, convex);
+}
+
+// Along d from x, where the forces are those; false when no step goes downhill by more
+// than rounding does.
+bool Equilibrium::line_search(const NodeVectors& forces_here, const NodeVectors& d, double rounding,
+                              NodeVectors& x, double& energy) {
+    const double slope = -dot(forces_here, d);
+    if (!(slope < 0)) return false;
+    double step = largest_step(x, d);
+    if (step < 1) step *= kSafety;
+    for (int i = 0; i < kMostHalvings; ++i, step *= 0.5) {
+        NodeVectors trial = x;
+        add_scaled(step, d, trial);
+        const double there = move_to(trial);
+        const bool decreased = there <= energy + kDecrease * step * slope;
+        if (!decreased && !(there <= energy + rounding)) continue;
+        if (decreased || std::abs(dot(forces(), d)) <= kFlatter * std::abs(slope)) {
+            x = std::move(trial);
+            energy = there;
+            return true;
+        }
+    }
+    (void)move_to(x);
+    return false;
+}
+
+EquilibriumSummary Equilibrium::find(NodeVectors& x) {
+    EquilibriumSummary summary;
+    summary.energy = move_to(x);
+    summary.message = "the energy at the start is not finite";
+    if (!std::isfinite(summary.energy)) return summary;
+    for (double first = 0;;) {
+        NodeVectors f = forces();
+        summary.residual = residual(f);
+        summary.history.push_back(summary.residual);
+        summary.converged = summary.residual <= options_.tolerance;
+        summary.message = "forces balance";
+        if (summary.converged) return summary;
+        summary.message = "out of iterations";
+        if (summary.iterations == options_.iterations) return summary;
+
+        for (std::size_t n = 0; n < f.size(); ++n)
+            if (held_[n]) f[n].setZero();
+        const double left = std::sqrt(dot(f, f));
+        first = std::max(first, left);
+        NodeVectors d(x.size(), Vec3::Zero());
+        bool convex = false;
+        const LinearSummary linear =
+            direction(f, std::clamp(left / first, kTightest, kLoosest), d, convex);
+        ++summary.iterations;
+        summary.linear_iterations += linear.iterations;
+        summary.convex_iterations += convex;
+
+        const Rounding rounding(K_, x);
+        summary.converged = left <= rounding.force;
+        summary.message = "forces balance to rounding";
+        if (summary.converged) return summary;
+        summary.message = "no step lowers the energy";
+        if (!line_search(f, d, rounding.energy, x, summary.energy)) return summary;
+    }
+}
+
+}  // namespace myotet::dynamics

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Dynamics/ConjugateGradients.h"
+
+#include <gtest/gtest.h>
+
+#include "Core/Parallel.h"
+#include "Dynamics/ElasticBody.h"
+#include "DynamicsShapes.h"
+#include "Elasticity/Materials.h"
+#include "Elasticity/TetLaw.h"
+
+namespace myotet::dynamics {
+namespace {
+
+// The stiffness of a block at rest; one end held.
+struct Held {
+    TetMesh mesh;
+    BlockMatrix K;
+    std::vector<char> held;
+
+    explicit Held(int cubes = 4) : mesh(test::block(cubes, 1)) {
+        using elasticity::NeoHookean;
+        ElasticBody body(mesh, std::make_shared<elasticity::OneLaw<NeoHookean>>(
+                                   NeoHookean{elasticity::lame_from(1, 0.4)}));
+        (void)body.move_to(mesh.points);
+        K = block_pattern(mesh.points.size(), body.cliques());
+        body.add_stiffness(Curvature::exact, K);
+        for (const Vec3& p : mesh.points) held.push_back(p.z() == 0);
+    }
+};
+
+TEST(Solve, SatisfiesTheEquationAtFreeNodesAndLeavesHeldOnesAlone) {
+    const Held block;
+    const NodeVectors right = test::random_vectors(block.held.size(), 1, 1),
+                      start = test::random_vectors(block.held.size(), 1, 2);
+    NodeVectors x = start;
+    const LinearSummary summary = solve(block.K, block.held, right, {1e-12, 1000}, x);
+    EXPECT_TRUE(summary.converged);
+    EXPECT_FALSE(summary.indefinite);
+    EXPECT_LT(summary.iterations, 200);
+    const NodeVectors product = multiply(block.K, x);
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        if (block.held[n])
+            EXPECT_EQ(x[n], start[n]);
+        else
+            EXPECT_LT((product[n] - right[n]).norm(), 1e-10);
+    }
+}
+
+TEST(Solve, SaysWhenItIsOutOfIterations) {
+    const Held block;
+    const NodeVectors right = test::random_vectors(block.held.size(), 1, 1);
+    NodeVectors x(right.size(), Vec3::Zero());
+    const LinearSummary summary = solve(block.K, block.held, right, {1e-12, 3}, x);
+    EXPECT_FALSE(summary.converged);
+    EXPECT_FALSE(summary.indefinite);
+    EXPECT_EQ(summary.iterations, 3);
+    EXPECT_GT(summary.residual, 1e-12);
+}
+
+TEST(Solve, SaysWhenTheMatrixIsNotPositive) {
+    Held block;
+    const NodeVectors right = test::random_vectors(block.held.size(), 1, 1);
+    for (const double shift : {0.9, 10.0}) {  // of the diagonal: inside the spectrum, above it
+        Held shifted = block;
+        for (std::size_t n = 0; n < right.size(); ++n) {
+            const auto i = static_cast<std::int32_t>(n);
+            shifted.K.value[shifted.K.at(i, i)] *= 1 - shift;
+        }
+        NodeVectors x(right.size(), Vec3::Zero());
+        const LinearSummary summary = solve(shifted.K, block.held, right, {1e-12, 1000}, x);
+        EXPECT_TRUE(summary.indefinite);
+        EXPECT_FALSE(summary.converged);
+    }
+}
+
+TEST(Solve, SameBytesOnOneThreadOrMany) {
+    const Held block(16);  // more nodes than one thread takes
+    const NodeVectors right = test::random_vectors(block.held.size(), 1, 1);
+    const auto on = [&](int threads) {
+        const ThreadLimit limit(threads);
+        NodeVectors x(right.size(), Vec3::Zero());
+        EXPECT_TRUE(solve(block.K, block.held, right, {1e-10, 1000}, x).converged);
+        return x;
+    };
+    EXPECT_EQ(on(1), on(3));
+}
+
+}  // namespace
+}  // namespace myotet::dynamics
