@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer's target: whatever the bytes are, a reader gives labels that keep
 // its promises, or one of the errors that it may throw, and nothing else.
-#include <unistd.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 
 #include "Core/Errors.h"
+#include "Folder.h"
 #include "Formats.h"
 #include "Segmentation/NameTable.h"
 
@@ -30,25 +29,16 @@ void check_layer(const LabelVolume& layer, const LabelVolume& first) {
     for (const auto& [value, name] : layer.names) check(!name.name.empty(), "a name is not empty");
 }
 
-/// A folder in memory where there is one, with the data file that a detached header may name.
+/// With the data file that a detached header may name.
 const fs::path& folder() {
-    static const fs::path made = [] {
-        const fs::path memory = "/dev/shm";
-        const fs::path at = (fs::is_directory(memory) ? memory : fs::temp_directory_path()) /
-                            ("myotet_fuzz_" + std::to_string(getpid()));
-        fs::create_directories(at);
-        std::ofstream(at / "data.raw", std::ios::binary) << std::string(64, '\1');
-        return at;
+    static const bool written = [] {
+        std::ofstream(myotet::fuzz::folder() / "data.raw", std::ios::binary)
+            << std::string(64, '\1');
+        return true;
     }();
-    return made;
+    (void)written;
+    return myotet::fuzz::folder();
 }
-
-struct RemoveFolder {
-    ~RemoveFolder() {
-        std::error_code ignored;
-        fs::remove_all(folder(), ignored);
-    }
-} const remove_at_end;
 
 void read(const fs::path& file, std::size_t ending, std::uint8_t byte) {
     if (ending == myotet::fuzz::kTable) {
