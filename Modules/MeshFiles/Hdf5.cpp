@@ -31,10 +31,12 @@ private:
     herr_t (*close_)(hid_t);
 };
 
-/// HDF5 is built for one thread, and prints its errors unless told otherwise.
+/// HDF5 is built for one thread, and prints its errors unless told otherwise;
+/// so it does when the program ends, where a damaged file made it lose handles.
 class Quiet {
 public:
     Quiet() : lock_(mutex()) {
+        [[maybe_unused]] static const herr_t told = H5dont_atexit();  // before any other call of it
         H5Eget_auto2(H5E_DEFAULT, &before_, &data_);
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     }
