@@ -224,45 +224,4 @@ std::string to_table(const LevelSetReport& report) {
     return table;
 }
 
-std::string quality_json(const std::string& mesh, const std::vector<TissueReport>& tissues) {
-    Json all = {{"mesh", mesh}, {"units", "mm"}, {"labels", Json::array()}};
-    for (const TissueReport& t : tissues)
-        all["labels"].push_back(
-            {{"label", t.label},
-             {"components", t.components_out},
-             {"volume_mesh_mm3", t.volume_mesh},
-             {"vertices", t.vertices},
-             {"tets", t.tets},
-             {"min_dihedral_deg", number_or_null(t.shapes.min_dihedral_deg)},
-             {"max_dihedral_deg", number_or_null(t.shapes.max_dihedral_deg)},
-             {"max_aspect_ratio", number_or_null(t.shapes.max_aspect_ratio)},
-             {"mean_aspect_ratio", number_or_null(t.shapes.mean_aspect_ratio)},
-             {"edge_length_surface_median_mm", t.surface_edges.median},
-             {"boundary_manifold", t.topology.boundary_manifold},
-             {"tets_with_four_boundary_nodes", t.topology.tets_with_four_boundary_nodes},
-             {"interior_edges_joining_boundary_nodes",
-              t.topology.interior_edges_joining_boundary_nodes},
-             {"inverted_tets", t.shapes.inverted_tets},
-             {"euler_characteristic", t.topology.euler_characteristic},
-             {"broken_promises", t.broken_promises}});
-    return written(all);
-}
-
-std::string quality_table(const std::vector<TissueReport>& tissues) {
-    std::string table =
-        "                    dihedral angle   aspect ratio        edge      volume\n"
-        " label      tets     min     max     max    mean      median         mm^3  pieces\n";
-    for (const TissueReport& t : tissues) {
-        char text[160];
-        std::snprintf(text, sizeof text, "%6d %9zu %7.2f %7.2f %7.3f %7.3f %11.4g %12.6g %7d\n",
-                      t.label, t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
-                      t.shapes.max_aspect_ratio, t.shapes.mean_aspect_ratio, t.surface_edges.median,
-                      t.volume_mesh, t.components_out);
-        table += text;
-        for (const std::string& sentence : t.broken_promises)
-            table += "        broken promise: " + sentence + "\n";
-    }
-    return table;
-}
-
 }  // namespace myotet::app

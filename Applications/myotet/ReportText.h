@@ -20,9 +20,4 @@ namespace myotet::app {
 
 [[nodiscard]] std::string to_table(const LevelSetReport& report);
 
-/// The same for a mesh that is at hand.
-[[nodiscard]] std::string quality_json(const std::string& mesh,
-                                       const std::vector<TissueReport>& tissues);
-[[nodiscard]] std::string quality_table(const std::vector<TissueReport>& tissues);
-
 }  // namespace myotet::app

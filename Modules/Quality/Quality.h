@@ -44,6 +44,21 @@ struct EdgeLengths {
 };
 [[nodiscard]] EdgeLengths boundary_edge_lengths(const TetMesh& mesh);
 
+/// What a triangle surface is worth by itself.
+struct SurfaceShape {
+    double min_angle_deg = 0, max_angle_deg = 0;
+    double area = 0;    ///< mm^2
+    double volume = 0;  ///< that it encloses, mm^3; of an open surface without meaning
+    EdgeLengths edges;
+    int components = 0;                      ///< connected by points
+    std::int64_t boundary_edges = 0;         ///< with one triangle; 0: the surface is closed
+    std::int64_t boundary_loops = 0;         ///< connected parts of the boundary
+    std::int64_t non_manifold_edges = 0;     ///< more than two triangles, or two that disagree
+    std::int64_t non_manifold_vertices = 0;  ///< points whose triangles are not one fan
+    std::int64_t euler_characteristic = 0;   ///< V - E + F, points of no triangle left out
+};
+[[nodiscard]] SurfaceShape measure_surface(const TriMesh& surface);
+
 /// |distance(p)| over boundary nodes, edge midpoints and face centres, mm.
 struct SurfaceDistance {
     double mean = 0, max = 0;
