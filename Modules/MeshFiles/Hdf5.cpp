@@ -3,6 +3,7 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -72,6 +73,15 @@ bool write_table(hid_t file, const Table& table) {
     return count == 0 || H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, from) >= 0;
 }
 
+/// A damaged header may ask for more than the file can hold: this is what it
+/// can. Only chunks can be compressed, by zlib to one byte of 1040 at best.
+hsize_t most_bytes(hid_t data, const std::filesystem::path& file) {
+    const Handle how(H5Dget_create_plist(data), H5Pclose);
+    const hsize_t stored =
+        std::min<hsize_t>(H5Dget_storage_size(data), std::filesystem::file_size(file));
+    return H5Pget_layout(how) == H5D_CHUNKED ? 1040 * stored : stored;
+}
+
 template <class Number>
 std::vector<Number> read_table(const std::filesystem::path& file, const std::string& dataset,
                                std::int64_t columns, hid_t type) {
@@ -84,6 +94,13 @@ std::vector<Number> read_table(const std::filesystem::path& file, const std::str
     if (!in.good()) throw cannot();
     Handle data(H5Dopen2(in, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!data.good()) throw cannot();
+    Handle stored(H5Dget_type(data), H5Tclose);
+    const H5T_class_t kind = H5Tget_class(stored);
+    const std::size_t bytes = H5Tget_size(stored);
+    if ((kind != H5T_INTEGER && kind != H5T_FLOAT) || bytes == 0 || bytes > 8)
+        throw InputError(where +
+                         "holds no numbers of at most 64 bits; the file is damaged or not a mesh, "
+                         "write it again");
     Handle space(H5Dget_space(data), H5Sclose);
     hsize_t shape[2] = {0, 1};
     const int rank = H5Sget_simple_extent_ndims(space);
@@ -91,8 +108,7 @@ std::vector<Number> read_table(const std::filesystem::path& file, const std::str
     if ((rank != 1 && rank != 2) || static_cast<std::int64_t>(shape[1]) != columns)
         throw InputError(where + "has not " + std::to_string(columns) +
                          " columns; the file is damaged or not a mesh, write it again");
-    // A damaged header may ask for more than the file can hold.
-    if (shape[0] * shape[1] > H5Dget_storage_size(data)) throw cannot();
+    if (shape[0] > most_bytes(data, file) / (shape[1] * bytes)) throw cannot();
     std::vector<Number> numbers(shape[0] * shape[1]);
     if (!numbers.empty() && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0)
         throw cannot();
