@@ -12,19 +12,21 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-// Inverses of the diagonal blocks, zero for held nodes: what they multiply leaves held
-// nodes alone. False where a block is not positive.
-bool invert_diagonal(const BlockMatrix& K, const std::vector<char>& held,
-                     std::vector<Mat3>& inverse) {
-    inverse.assign(K.rows(), Mat3::Zero());
+// Inverses of the diagonal blocks, or of their size where they are not positive; zero for
+// held nodes: what they multiply leaves held nodes alone.
+std::vector<Mat3> invert_diagonal(const BlockMatrix& K, const std::vector<char>& held) {
+    std::vector<Mat3> inverse(K.rows(), Mat3::Zero());
     for (std::size_t n = 0; n < K.rows(); ++n) {
         if (held[n]) continue;
         const auto i = static_cast<std::int32_t>(n);
-        const Eigen::LLT<Mat3> factor(K.value[K.at(i, i)]);
-        if (factor.info() != Eigen::Success) return false;
-        inverse[n] = factor.solve(Mat3::Identity());
+        const Mat3& block = K.value[K.at(i, i)];
+        const Eigen::LLT<Mat3> factor(block);
+        if (factor.info() == Eigen::Success)
+            inverse[n] = factor.solve(Mat3::Identity());
+        else
+            inverse[n] = Mat3::Identity() / block.norm();
     }
-    return true;
+    return inverse;
 }
 
 NodeVectors scaled(const std::vector<Mat3>& by, const NodeVectors& r) {
@@ -40,11 +42,7 @@ NodeVectors scaled(const std::vector<Mat3>& by, const NodeVectors& r) {
 LinearSummary solve(const BlockMatrix& K, const std::vector<char>& held, const NodeVectors& right,
                     const LinearOptions& options, NodeVectors& x) {
     LinearSummary summary;
-    std::vector<Mat3> inverse;
-    if (!invert_diagonal(K, held, inverse)) {
-        summary.indefinite = true;
-        return summary;
-    }
+    const std::vector<Mat3> inverse = invert_diagonal(K, held);
     NodeVectors r = right;
     add_scaled(-1, multiply(K, x), r);
     NodeVectors z = scaled(inverse, r), p = z;
@@ -59,7 +57,7 @@ LinearSummary solve(const BlockMatrix& K, const std::vector<char>& held, const N
         const NodeVectors q = multiply(K, p);
         const double curvature = dot(p, q);
         if (!(curvature > 0)) {
-            summary.indefinite = true;
+            summary.downward = p;
             break;
         }
         const double alpha = rz / curvature;

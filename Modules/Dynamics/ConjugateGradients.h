@@ -12,16 +12,18 @@ struct LinearOptions {
 
 struct LinearSummary {
     bool converged = false;
-    bool indefinite = false;  ///< a direction of no or negative curvature was met
     int iterations = 0;
     double residual = 0;  ///< relative
+    /// Where K is not positive, a direction p with p . K p <= 0 and p . right >= 0 that
+    /// was met, zero at held nodes; else empty.
+    NodeVectors downward = {};
 };
 
 /// Solves K x = right for the nodes that are not `held`; held ones keep the values that
 /// `x` has, free ones begin there. Conjugate gradients, preconditioned by the inverses
-/// of the diagonal blocks. K shall be symmetric. Where K is not positive the solution
-/// so far stays in x and `indefinite` is set. Same bytes on any number of threads.
-/// `held` has |V| entries, not 0 for held nodes.
+/// of the diagonal blocks. K shall be symmetric; where it is not positive the solution so
+/// far stays in x, as far as it goes downhill [Nocedal and Wright 2006, algorithm 7.1].
+/// Same bytes on any number of threads. `held` has |V| entries, not 0 for held nodes.
 [[nodiscard]] LinearSummary solve(const BlockMatrix& K, const std::vector<char>& held,
                                   const NodeVectors& right, const LinearOptions& options,
                                   NodeVectors& x);

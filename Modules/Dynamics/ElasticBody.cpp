@@ -46,12 +46,9 @@ Cliques ElasticBody::cliques() const {
     return all;
 }
 
-void ElasticBody::add_stiffness(Curvature curvature, BlockMatrix& K) const {
+void ElasticBody::add_stiffness(BlockMatrix& K) const {
     parallel_for(0, tets_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t t = first; t < last; ++t) {
-            tangent_[t] = law_->tangent(t, gradient_[t]);
-            if (curvature == Curvature::convex) tangent_[t] = elasticity::convex_part(tangent_[t]);
-        }
+        for (std::size_t t = first; t < last; ++t) tangent_[t] = law_->tangent(t, gradient_[t]);
     });
     // Each row gathers from the tetrahedra around its node, in their order.
     parallel_for(0, K.rows(), kGrain, [&](std::size_t first, std::size_t last) {

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] double move_to(const NodeVectors& x) override;
     void add_forces(NodeVectors& forces) const override;
     [[nodiscard]] Cliques cliques() const override;
-    void add_stiffness(Curvature curvature, BlockMatrix& K) const override;
+    void add_stiffness(BlockMatrix& K) const override;
     [[nodiscard]] double largest_step(const NodeVectors& x, const NodeVectors& by) const override;
 
 private:

@@ -22,6 +22,9 @@ constexpr double kFlatter = 0.9;
 constexpr int kMostHalvings = 25;
 // The first solves need no more than a direction.
 constexpr double kLoosest = 0.1, kTightest = 1e-10;
+constexpr double kGuess = 0.01;
+// How far along a downward curve a node may move at first, and least: parts of the body.
+constexpr double kReach = 0.02, kLeastReach = 1e-4;
 void require(bool holds, const char* field, double value, const char* rule) {
     if (!holds)
         throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
@@ -48,6 +51,31 @@ struct Rounding {
         force = kForceRounding * epsilon * reach * std::sqrt(squares);
         energy *= kEnergyRounding * epsilon;
     }
+};
+
+double largest(const NodeVectors& v) {
+    double most = 0;
+    for (const Vec3& p : v) most = std::max(most, p.norm());
+    return most;
+}
+
+// How far to follow a direction along which the energy curves downwards.
+class Reach {
+public:
+    explicit Reach(const NodeVectors& x) {
+        Box box;
+        for (const Vec3& p : x) box.include(p);
+        least_ = kLeastReach * box.diagonal();
+        now_ = kReach * box.diagonal();
+    }
+    void extend(const NodeVectors& downward, NodeVectors& d) const {
+        add_scaled(now_ / largest(downward), downward, d);
+    }
+    // A whole step may be followed by a longer one.
+    void learn(double step) { now_ = std::max(least_, step < 1 ? step * now_ : 2 * now_); }
+
+private:
+    double least_, now_;
 };
 
 }  // namespace
@@ -90,11 +118,6 @@ NodeVectors Equilibrium::forces() const {
     return sum;
 }
 
-void Equilibrium::build(Curvature curvature) {
-    K_.set_zero();
-    for (const Potential* potential : potentials_) potential->add_stiffness(curvature, K_);
-}
-
 double Equilibrium::largest_step(const NodeVectors& x, const NodeVectors& by) const {
     double step = 1;
     for (const Potential* potential : potentials_)
@@ -111,36 +134,25 @@ double Equilibrium::residual(const NodeVectors& forces) const {
     return all > 0 ? std::sqrt(dot(left, left) / all) : 0;
 }
 
-LinearSummary Equilibrium::direction(const NodeVectors& right, double tolerance, NodeVectors& d,
-                                     bool& convex) {
-    const LinearOptions options{tolerance, options_.linear_iterations};
-    const NodeVectors start = d;
-    build(Curvature::exact);
-    LinearSummary summary = solve(K_, held_, right, options, d);
-    convex = summary.indefinite;
-    if (!convex) return summary;
-    d = start;
-    build(Curvature::convex);
-    const int before = summary.iterations;
-    summary = solve(K_, held_, right, options, d);
-    summary.iterations += before;
-    return summary;
+LinearSummary Equilibrium::direction(const NodeVectors& right, double tolerance, NodeVectors& d) {
+    K_.set_zero();
+    for (const Potential* potential : potentials_) potential->add_stiffness(K_);
+    return solve(K_, held_, right, {tolerance, options_.linear_iterations}, d);
 }
 
 LinearSummary Equilibrium::predict(const NodeVectors& x, NodeVectors& by) {
     for (std::size_t n = 0; n < by.size(); ++n)
         if (!held_[n]) by[n].setZero();
     (void)move_to(x);
-    bool convex = false;
-    return direction(forces(), kLoosest * kLoosest, by, convex);
+    return direction(forces(), kGuess, by);
 }
 
-// Along d from x, where the forces are those; false when no step goes downhill by more
-// than rounding does.
-bool Equilibrium::line_search(const NodeVectors& forces_here, const NodeVectors& d, double rounding,
-                              NodeVectors& x, double& energy) {
+// Along d from x, where the forces are those. Returns the part of d that was gone, 0 when
+// no step goes downhill.
+double Equilibrium::line_search(const NodeVectors& forces_here, const NodeVectors& d,
+                                double rounding, NodeVectors& x, double& energy) {
     const double slope = -dot(forces_here, d);
-    if (!(slope < 0)) return false;
+    if (!(slope < 0)) return 0;
     double step = largest_step(x, d);
     if (step < 1) step *= kSafety;
     for (int i = 0; i < kMostHalvings; ++i, step *= 0.5) {
@@ -152,11 +164,11 @@ bool Equilibrium::line_search(const NodeVectors& forces_here, const NodeVectors&
         if (decreased || std::abs(dot(forces(), d)) <= kFlatter * std::abs(slope)) {
             x = std::move(trial);
             energy = there;
-            return true;
+            return step;
         }
     }
     (void)move_to(x);
-    return false;
+    return 0;
 }
 
 EquilibriumSummary Equilibrium::find(NodeVectors& x) {
@@ -164,6 +176,7 @@ EquilibriumSummary Equilibrium::find(NodeVectors& x) {
     summary.energy = move_to(x);
     summary.message = "the energy at the start is not finite";
     if (!std::isfinite(summary.energy)) return summary;
+    Reach reach(x);
     for (double first = 0;;) {
         NodeVectors f = forces();
         summary.residual = residual(f);
@@ -179,19 +192,22 @@ EquilibriumSummary Equilibrium::find(NodeVectors& x) {
         const double left = std::sqrt(dot(f, f));
         first = std::max(first, left);
         NodeVectors d(x.size(), Vec3::Zero());
-        bool convex = false;
-        const LinearSummary linear =
-            direction(f, std::clamp(left / first, kTightest, kLoosest), d, convex);
+        const LinearSummary linear = direction(f, std::clamp(left / first, kTightest, kLoosest), d);
         ++summary.iterations;
         summary.linear_iterations += linear.iterations;
-        summary.convex_iterations += convex;
 
         const Rounding rounding(K_, x);
         summary.converged = left <= rounding.force;
         summary.message = "forces balance to rounding";
         if (summary.converged) return summary;
+        if (!linear.downward.empty()) {
+            ++summary.indefinite_iterations;
+            reach.extend(linear.downward, d);
+        }
+        const double step = line_search(f, d, rounding.energy, x, summary.energy);
         summary.message = "no step lowers the energy";
-        if (!line_search(f, d, rounding.energy, x, summary.energy)) return summary;
+        if (!(step > 0)) return summary;
+        if (!linear.downward.empty()) reach.learn(step);
     }
 }
 

@@ -23,23 +23,25 @@ struct EquilibriumOptions {
 struct EquilibriumSummary {
     bool converged = false;
     std::string message = "not run";
-    int iterations = 0;           ///< of Newton's method
-    int convex_iterations = 0;    ///< of those, with the convex curvature
-    int linear_iterations = 0;    ///< of conjugate gradients in all
-    double residual = 0;          ///< as `tolerance` measures it
-    double energy = 0;            ///< mJ
-    std::vector<double> history;  ///< residual before each iteration and at the end
+    int iterations = 0;             ///< of Newton's method
+    int indefinite_iterations = 0;  ///< of those, where the energy curved downwards
+    int linear_iterations = 0;      ///< of conjugate gradients in all
+    double residual = 0;            ///< as `tolerance` measures it
+    double energy = 0;              ///< mJ
+    std::vector<double> history;    ///< residual before each iteration and at the end
 };
 
 /// Finds positions where the sum of some potentials is least while some nodes are
-/// held, by Newton's method:
+/// held, by Newton's method [Nocedal and Wright 2006, ch. 3, 7]:
 /// - a direction d from K d = f by conjugate gradients, solved the better the nearer the
 ///   end (relative residual of at most |f| / |f at the start|: second order is kept);
-/// - where K has negative curvature, from its convex part instead;
+/// - where the energy curves downwards, as in buckling, as far as conjugate gradients
+///   came and on along the curve, by a reach that grows while such steps succeed;
 /// - a step at most 90 % of the way to where the energy becomes infinite, halved until
 ///   the energy has decreased by 1e-4 of what the slope promises (Armijo) or, where
 ///   rounding hides that, the slope.
-/// So no tetrahedron ever inverts, and the energy never grows.
+/// So no tetrahedron ever inverts, the energy never grows, and buckling is followed to
+/// where it ends.
 ///
 /// Cost of an iteration on a lattice's mesh: about 5 us a tetrahedron and 0.3 us more
 /// for each iteration of conjugate gradients. Same bytes on any number of threads.
@@ -67,12 +69,11 @@ public:
 
 private:
     [[nodiscard]] double move_to(const NodeVectors& x);
-    void build(Curvature curvature);
     [[nodiscard]] LinearSummary direction(const NodeVectors& right, double tolerance,
-                                          NodeVectors& d, bool& convex);
+                                          NodeVectors& d);
     [[nodiscard]] double residual(const NodeVectors& forces) const;
-    bool line_search(const NodeVectors& forces, const NodeVectors& d, double rounding,
-                     NodeVectors& x, double& energy);
+    double line_search(const NodeVectors& forces, const NodeVectors& d, double rounding,
+                       NodeVectors& x, double& energy);
 
     std::vector<Potential*> potentials_;
     std::vector<char> held_;

@@ -5,12 +5,6 @@
 
 namespace myotet::dynamics {
 
-/// Which second derivative of an energy.
-enum class Curvature {
-    exact,
-    convex,  ///< a nearby one without negative curvature
-};
-
 /// An energy of nodes, a function of their positions alone, with its derivatives: a
 /// body's, a spring's, a load's. Several of them add up. What it depends on besides,
 /// such as activation, its owner changes between two calls of move_to.
@@ -25,7 +19,7 @@ public:
     /// Which nodes' forces depend on which nodes' positions.
     [[nodiscard]] virtual Cliques cliques() const = 0;
     /// Adds the second derivative, N/mm, to a matrix whose pattern holds the cliques.
-    virtual void add_stiffness(Curvature curvature, BlockMatrix& K) const = 0;
+    virtual void add_stiffness(BlockMatrix& K) const = 0;
     /// The greatest s of at most 1 such that the energy stays finite on the way from x
     /// to x + s `by`.
     [[nodiscard]] virtual double largest_step(const NodeVectors& x,

@@ -61,7 +61,7 @@ private:
 
 void record(const EquilibriumSummary& step, double load, LoadSummary& summary) {
     summary.iterations += step.iterations;
-    summary.convex_iterations += step.convex_iterations;
+    summary.indefinite_iterations += step.indefinite_iterations;
     summary.linear_iterations += step.linear_iterations;
     if (!step.converged) {
         ++summary.failed_steps;

@@ -40,7 +40,7 @@ struct LoadSummary {
     std::string message = "not run";
     double load = 0;  ///< the last one in equilibrium
     int steps = 0, failed_steps = 0;
-    int iterations = 0, convex_iterations = 0, linear_iterations = 0;  ///< failed steps' too
+    int iterations = 0, indefinite_iterations = 0, linear_iterations = 0;  ///< failed steps' too
     double residual = 0;  ///< the largest of an accepted step
 };
 

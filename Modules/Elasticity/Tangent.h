@@ -10,9 +10,4 @@ namespace myotet::elasticity {
 /// Symmetric where P comes from an energy.
 using Tangent = Eigen::Matrix<double, 9, 9>;
 
-/// The nearest tangent without negative curvature: negative eigenvalues become zero.
-/// A minimisation that uses it always goes downhill [Teran, Sifakis, Irving,
-/// Fedkiw 2005, Robust quasistatic finite elements and flesh simulation].
-[[nodiscard]] Tangent convex_part(const Tangent& tangent);
-
 }  // namespace myotet::elasticity

@@ -42,7 +42,7 @@ public:
     }
     void add_forces(NodeVectors& f) const override { add_scaled(-k_, x_, f); }
     Cliques cliques() const override { return {}; }
-    void add_stiffness(Curvature, BlockMatrix& K) const override {
+    void add_stiffness(BlockMatrix& K) const override {
         for (std::int32_t n = 0; n < static_cast<std::int32_t>(K.rows()); ++n)
             K.value[K.at(n, n)].diagonal().array() += k_;
     }
@@ -146,7 +146,7 @@ TEST(Equilibrium, ARigidMotionOfTheHeldNodesCostsNothing) {
 }
 
 TEST(Equilibrium, TheEnergyNeverGrowsAndNothingInvertsFromAWildStart) {
-    // Far from equilibrium, where the exact curvature is negative.
+    // Far from equilibrium, where the energy curves downwards.
     Pressed block(Vec3(1, 1, 0.5).asDiagonal(), 4);
     const NodeVectors off = test::random_vectors(block.x.size(), 0.23, 8);
     std::vector<char> held(block.x.size(), 0);
@@ -163,17 +163,47 @@ TEST(Equilibrium, TheEnergyNeverGrowsAndNothingInvertsFromAWildStart) {
     EquilibriumOptions one = kExact;
     one.iterations = 1;
     Equilibrium step({&block.body}, start.size(), block.held, one);
-    int convex = 0;
+    int indefinite = 0;
     for (int i = 0; i < 60; ++i) {
         const EquilibriumSummary summary = step.find(start);
         EXPECT_TRUE(std::isfinite(summary.energy));
         EXPECT_LE(summary.energy, energy * (1 + 1e-12));
         energy = summary.energy;
-        convex += summary.convex_iterations;
+        indefinite += summary.indefinite_iterations;
         if (summary.converged) break;
     }
-    EXPECT_GT(convex, 0);  // the case is there
+    EXPECT_GT(indefinite, 0);  // the case is there
     EXPECT_LT(step.find(start).residual, 1e-8);
+}
+
+TEST(Equilibrium, AColumnBuckles) {
+    // Twelve cubes high and two wide, pressed by a fifth: straight, it is no minimum.
+    TetMesh mesh = test::block(12, 1);
+    const auto outside = [&](const Tet& t) {
+        const Vec3 c =
+            0.25 * (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]] + mesh.points[t[3]]);
+        return c.x() > 2 || c.y() > 2;
+    };
+    std::erase_if(mesh.tets, outside);
+    ElasticBody body(mesh, rubber(0.45));
+    std::vector<std::int32_t> held = nodes_where(mesh, [](const Vec3& p) {
+        return p.z() == 0 || p.z() == 12 || p.x() > 2 || p.y() > 2;  // the rest is in no element
+    });
+    NodeVectors x = mesh.points;
+    for (Vec3& p : x) {
+        p.z() *= 0.8;
+        p.x() += 1e-3 * p.z() * (9.6 - p.z());  // which way, a symmetric column cannot tell
+    }
+    EquilibriumOptions many = kExact;
+    many.iterations = 200;
+    Equilibrium equilibrium({&body}, x.size(), held, many);
+    const EquilibriumSummary summary = equilibrium.find(x);
+    ASSERT_TRUE(summary.converged) << summary.message;
+    EXPECT_GT(summary.indefinite_iterations, 0);
+    double aside = 0;  // of the column's middle
+    for (std::size_t n = 0; n < x.size(); ++n)
+        if (mesh.points[n] == Vec3(1, 1, 6)) aside = (x[n] - mesh.points[n]).head<2>().norm();
+    EXPECT_GT(aside, 1);
 }
 
 TEST(Equilibrium, PotentialsAddUp) {
