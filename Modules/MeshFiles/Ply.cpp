@@ -209,6 +209,8 @@ RawSurface parse_ply(std::string_view content, const std::filesystem::path& file
             values.begin_element(element.name);
             read_element(element, values, surface, corners);
         }
+    if (surface.tags.empty() && header.tag_names.size() == 1)
+        surface.tags.assign(surface.triangles.size(), header.tag_names.begin()->first);
     return surface;
 }
 

@@ -45,13 +45,16 @@ std::string ply_bytes(const NamedMesh& mesh) {
     out.line("element vertex ", surface.points.size());
     out.line("property double x\nproperty double y\nproperty double z");
     out.line("element face ", surface.triangles.size());
-    out.line("property list uchar int vertex_indices\nproperty int tag\nend_header");
+    // meshio takes no other property beside the list; one name needs none.
+    const bool tagged = names.size() > 1;
+    out.line("property list uchar int vertex_indices\n", tagged ? "property int tag\n" : "",
+             "end_header");
     for (const Vec3& p : surface.points)
         for (int a = 0; a < 3; ++a) put(out, p[a]);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         put(out, std::uint8_t{3});
         for (const std::int32_t corner : surface.triangles[t]) put(out, corner);
-        put(out, tags[t]);
+        if (tagged) put(out, tags[t]);
     }
     return out.text();
 }

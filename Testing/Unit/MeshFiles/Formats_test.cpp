@@ -159,6 +159,20 @@ TEST(SurfaceFormat, PlyAndObjKeepNamedFaces) {
     }
 }
 
+/// Readers that know no property beside a face's corners are many.
+TEST(SurfaceFormat, PlyOfOneFaceSetHasNoPropertyButKeepsItsNameAndTag) {
+    const TemporaryFolder folder;
+    NamedMesh mesh = three_tets();
+    mesh.faces.resize(1);
+    write_mesh(mesh, folder / "a.ply");
+    EXPECT_THAT(read_bytes(folder / "a.ply"), ::testing::Not(HasSubstr("tag")));
+    const NamedMesh back = read_mesh(folder / "a.ply");
+    ASSERT_EQ(back.faces.size(), 1u);
+    EXPECT_EQ(back.faces[0].name, mesh.faces[0].name);
+    EXPECT_EQ(back.faces[0].tag, mesh.faces[0].tag);
+    EXPECT_EQ(back.faces[0].triangles.size(), mesh.faces[0].triangles.size());
+}
+
 TEST(SurfaceFormat, StlAndVtpHoldTheBoundary) {
     constexpr double kFloat = 1e-4;  // 32-bit coordinates of 123 mm, areas of order 100 mm^2
     const TemporaryFolder folder;

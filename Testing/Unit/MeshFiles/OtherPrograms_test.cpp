@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What others write, we read; what we write, gmsh reads.
+// What others write, we read; what we write, gmsh and meshio read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,6 +64,40 @@ TEST(GmshReads, OurMeditAndNastran) {
         EXPECT_EQ(back.mesh.tets.size(), 3u) << name;
         EXPECT_NEAR(volume(back.mesh), volume(mesh.mesh), 1e-6 * volume(mesh.mesh)) << name;
     }
+}
+
+constexpr const char* kPython = "/usr/bin/python3";
+
+/// Counts of points, cells by type and names of sets, as meshio reads a file.
+constexpr const char* kMeshio =
+    "import meshio, sys\n"
+    "for f in sys.argv[1:]:\n"
+    "    m = meshio.read(f)\n"
+    "    print(f.rsplit('/')[-1], len(m.points), *[(c.type, len(c.data)) for c in m.cells],\n"
+    "          *sorted(m.field_data), *sorted(m.cell_sets or []), sep=';')\n";
+
+TEST(MeshioReads, WhatWeWrite) {
+    if (run_program(kPython, {"-c", "import meshio"}).code != 0)
+        GTEST_SKIP() << "meshio is not installed";
+    const TemporaryFolder folder;
+    NamedMesh mesh = three_tets();
+    std::vector<std::string> words = {"-c", kMeshio};
+    for (const char* name : {"a.msh", "a.inp", "a.bdf", "a.mesh", "a.stl", "a.obj"}) {
+        write_mesh(mesh, folder / name);
+        words.push_back(folder / name);
+    }
+    mesh.faces.resize(1);
+    write_mesh(mesh, folder / "one.ply");
+    words.push_back(folder / "one.ply");
+    const auto ran = run_program(kPython, words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    for (const char* line :
+         {"a.msh;6;('triangle', 2);('triangle', 6);('triangle', 2);('tetra', 1);('tetra', 2);",
+          ";M. triceps, caput <longum> & more|exterior;biceps;",
+          "a.inp;6;('tetra', 1);('tetra', 2);", "a.bdf;6;('tetra', 3)\n",
+          "a.mesh;6;('triangle', 10);('tetra', 3)\n", "a.stl;6;('triangle', 8)\n",
+          "a.obj;6;('triangle', 2);('triangle', 6);('triangle', 2)\n", "one.ply;4;('triangle', 2)"})
+        EXPECT_THAT(ran.out, HasSubstr(line));
 }
 
 // gmsh writes Nastran's small fields: eight characters, five digits at least.
