@@ -56,8 +56,9 @@ private:
 
     void read_elements(const pugi::xml_node& elements) {
         const std::string_view type = elements.attribute("type").value();
-        require(elements, type == "tet4",
-                "holds elements of type '" + std::string(type) + "', but only tet4 is read");
+        if (type != "tet4")
+            refuse(elements,
+                   "holds elements of type '" + std::string(type) + "', but only tet4 is read");
         const std::int64_t label = number_in_remark("label ", next_label_);
         next_label_ = std::max(next_label_, label + 1);
         mesh_.names[label] = name_of(elements);
@@ -107,8 +108,9 @@ private:
             Number value{};
             const auto [end, error] =
                 std::from_chars(word.data(), word.data() + word.size(), value);
-            require(node, error == std::errc{} && end == word.data() + word.size(),
-                    "holds '" + std::string(word.substr(0, 40)) + "' where a number should stand");
+            if (error != std::errc{} || end != word.data() + word.size())
+                refuse(node, "holds '" + std::string(word.substr(0, 40)) +
+                                 "' where a number should stand");
             found.push_back(value);
             text.remove_prefix(word.size());
         }
@@ -125,8 +127,11 @@ private:
         return value;
     }
 
-    void require(const pugi::xml_node& node, bool holds, const std::string& defect) const {
-        if (!holds) fail(node.offset_debug(), "(<" + std::string(node.name()) + ">) " + defect);
+    void require(const pugi::xml_node& node, bool holds, const char* defect) const {
+        if (!holds) refuse(node, defect);
+    }
+    [[noreturn]] void refuse(const pugi::xml_node& node, const std::string& defect) const {
+        fail(node.offset_debug(), "(<" + std::string(node.name()) + ">) " + defect);
     }
     [[noreturn]] void fail(std::ptrdiff_t offset, const std::string& defect) const {
         throw InputError(file_.string() + ": line " + std::to_string(line_at(content_, offset)) +

@@ -31,6 +31,13 @@ struct RawMesh {
     std::vector<Nodes> nodes;
     std::string space;  ///< patient frame that the file names (LPS, RAS), or empty
 
+    void reserve(std::size_t more_points, std::size_t more_tets) {
+        ids.reserve(ids.size() + more_points);
+        points.reserve(points.size() + more_points);
+        tet_ids.reserve(tet_ids.size() + more_tets);
+        labels.reserve(labels.size() + more_tets);
+        tets.reserve(tets.size() + more_tets);
+    }
     void add_point(std::int64_t id, const Vec3& p) {
         ids.push_back(id);
         points.push_back(p);

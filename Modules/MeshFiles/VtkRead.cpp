@@ -26,8 +26,8 @@ public:
         const pugi::xml_node root = document_.child("VTKFile");
         if (!root) fail(0, "begins no VTKFile");
         const std::string_view said = root.attribute("type").value();
-        require(root, said == type,
-                "is of type '" + std::string(said) + "', but " + type + " is needed");
+        if (said != type)
+            refuse(root, "is of type '" + std::string(said) + "', but " + type + " is needed");
         read_storage(root);
         grid_ = root.child(type);
     }
@@ -42,7 +42,7 @@ public:
     }
     [[nodiscard]] pugi::xml_node array(const pugi::xml_node& holder, const char* name) const {
         const pugi::xml_node found = find(holder, name);
-        require(holder, !found.empty(), "has no array '" + std::string(name) + "'");
+        if (!found) refuse(holder, "has no array '" + std::string(name) + "'");
         return found;
     }
     [[nodiscard]] static bool is_array(const pugi::xml_node& node) {
@@ -83,13 +83,16 @@ public:
         const std::string_view said = trimmed(node.attribute(name).value());
         std::int64_t value = otherwise.value_or(-1);
         if (!said.empty()) value = to_number<std::int64_t>(node, said);
-        require(
-            node, value >= 0,
-            "says " + std::string(name) + "=\"" + std::string(said) + "\", but a count is needed");
+        if (value < 0)
+            refuse(node, "says " + std::string(name) + "=\"" + std::string(said) +
+                             "\", but a count is needed");
         return value;
     }
-    void require(const pugi::xml_node& node, bool holds, const std::string& defect) const {
-        if (!holds) fail(node.offset_debug(), "(<" + std::string(node.name()) + ">) " + defect);
+    void require(const pugi::xml_node& node, bool holds, const char* defect) const {
+        if (!holds) refuse(node, defect);
+    }
+    [[noreturn]] void refuse(const pugi::xml_node& node, const std::string& defect) const {
+        fail(node.offset_debug(), "(<" + std::string(node.name()) + ">) " + defect);
     }
 
 private:
@@ -185,8 +188,9 @@ private:
     Number to_number(const pugi::xml_node& node, std::string_view word) const {
         Number value{};
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        require(node, error == std::errc{} && end == word.data() + word.size(),
-                "holds '" + std::string(word.substr(0, 40)) + "' where a number should stand");
+        if (error != std::errc{} || end != word.data() + word.size())
+            refuse(node,
+                   "holds '" + std::string(word.substr(0, 40)) + "' where a number should stand");
         return value;
     }
     static std::string_view trimmed(std::string_view text) {
@@ -236,9 +240,9 @@ Cells cells_of(const VtkFile& vtk, const pugi::xml_node& holder, std::int64_t co
         before = end;
     }
     for (const std::int64_t corner : cells.corners)
-        vtk.require(
-            holder, corner >= 0 && corner < points,
-            "names point " + std::to_string(corner) + ", but there are " + std::to_string(points));
+        if (corner < 0 || corner >= points)
+            vtk.refuse(holder, "names point " + std::to_string(corner) + ", but there are " +
+                                   std::to_string(points));
     return cells;
 }
 
@@ -264,10 +268,9 @@ std::vector<std::int64_t> labels_of(const VtkFile& vtk, const pugi::xml_node& pi
     vtk.require(array, !numbers.empty() && numbers.size() % count == 0, "has not one label a cell");
     for (std::size_t c = 0; c < count; ++c) {
         const double label = numbers[c * (numbers.size() / count)];
-        vtk.require(array,
-                    std::abs(label) <= std::numeric_limits<std::int32_t>::max() &&
-                        label == std::floor(label),
-                    "holds " + std::to_string(label) + ", which is no label of 32 bits");
+        if (!(std::abs(label) <= std::numeric_limits<std::int32_t>::max()) ||
+            label != std::floor(label))
+            vtk.refuse(array, "holds " + std::to_string(label) + ", which is no label of 32 bits");
         labels[c] = static_cast<std::int64_t>(label);
     }
     return labels;
@@ -284,6 +287,7 @@ bool is_solid(std::int64_t type) {
 void read_piece(const VtkFile& vtk, const pugi::xml_node& piece, RawMesh& mesh) {
     const auto first = static_cast<std::int64_t>(mesh.points.size());
     const auto points = points_of(vtk, piece);
+    mesh.reserve(points.size(), 0);
     for (const Vec3& p : points) mesh.add_point(static_cast<std::int64_t>(mesh.points.size()), p);
     const std::int64_t count = vtk.number(piece, "NumberOfCells");
     const pugi::xml_node holder = piece.child("Cells");
@@ -292,13 +296,14 @@ void read_piece(const VtkFile& vtk, const pugi::xml_node& piece, RawMesh& mesh) 
         count == 0 ? std::vector<std::int64_t>{} : vtk.integers(vtk.array(holder, "types"));
     vtk.require(holder, types.size() == cells.ends.size(), "has not one type a cell");
     const auto labels = labels_of(vtk, piece, types.size());
+    mesh.reserve(0, types.size());
     for (std::size_t c = 0; c < types.size(); ++c) {
         const auto corners = cells.of(c);
         const bool tetrahedron = types[c] == kTetrahedron && corners.size() == 4;
-        vtk.require(holder, tetrahedron || !is_solid(types[c]),
-                    "holds a cell of VTK's type " + std::to_string(types[c]) + " with " +
-                        std::to_string(corners.size()) +
-                        " points, but of solids only tetrahedra of four are read");
+        if (!tetrahedron && is_solid(types[c]))
+            vtk.refuse(holder, "holds a cell of VTK's type " + std::to_string(types[c]) + " with " +
+                                   std::to_string(corners.size()) +
+                                   " points, but of solids only tetrahedra of four are read");
         if (tetrahedron)
             mesh.add_tet(
                 static_cast<std::int64_t>(mesh.tets.size()), labels[c],

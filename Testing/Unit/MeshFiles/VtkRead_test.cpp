@@ -49,10 +49,14 @@ std::vector<Way> all_ways() {
     return ways;
 }
 
-/// The order and width of the bytes change nothing in what can be damaged.
+/// The order and width of the bytes change nothing in what can be damaged, and
+/// LZMA, which is slow to begin with, is damaged in one way only.
 std::vector<Way> ways_to_damage() {
     std::vector<Way> ways = all_ways();
-    std::erase_if(ways, [](const Way& way) { return way.big_endian || !way.wide_headers; });
+    std::erase_if(ways, [](const Way& way) {
+        return way.big_endian || !way.wide_headers ||
+               (way.compressor == vtkXMLWriter::LZMA && way.base64);
+    });
     return ways;
 }
 
