@@ -13,8 +13,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
+#include <vector>
 
 #include "Core/Errors.h"
 
@@ -148,43 +147,6 @@ std::string uncompressed(Source& source, const VtkStorage& storage) {
     return bytes;
 }
 
-template <class Stored, class Number>
-std::vector<Number> copied(std::string_view bytes, const VtkStorage& storage) {
-    const bool turn = storage.big_endian != (std::endian::native == std::endian::big);
-    std::vector<Number> numbers(bytes.size() / sizeof(Stored));
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        std::array<char, sizeof(Stored)> raw;
-        std::memcpy(raw.data(), bytes.data() + i * sizeof(Stored), sizeof(Stored));
-        if (turn) std::ranges::reverse(raw);
-        numbers[i] = static_cast<Number>(std::bit_cast<Stored>(raw));
-    }
-    return numbers;
-}
-
-template <class Number>
-std::vector<Number> integers_as(std::string_view bytes, VtkNumber kind, const VtkStorage& storage) {
-    switch (kind) {
-        case VtkNumber::int8:
-            return copied<std::int8_t, Number>(bytes, storage);
-        case VtkNumber::uint8:
-            return copied<std::uint8_t, Number>(bytes, storage);
-        case VtkNumber::int16:
-            return copied<std::int16_t, Number>(bytes, storage);
-        case VtkNumber::uint16:
-            return copied<std::uint16_t, Number>(bytes, storage);
-        case VtkNumber::int32:
-            return copied<std::int32_t, Number>(bytes, storage);
-        case VtkNumber::uint32:
-            return copied<std::uint32_t, Number>(bytes, storage);
-        case VtkNumber::int64:
-            return copied<std::int64_t, Number>(bytes, storage);
-        case VtkNumber::uint64:
-            return copied<std::uint64_t, Number>(bytes, storage);
-        default:
-            throw LogicError("an integer array holds integers");
-    }
-}
-
 }  // namespace
 
 std::string vtk_array_bytes(std::string_view from, bool base64, const VtkStorage& storage,
@@ -193,17 +155,6 @@ std::string vtk_array_bytes(std::string_view from, bool base64, const VtkStorage
     if (storage.compressor != VtkStorage::Compressor::none) return uncompressed(source, storage);
     const std::uint64_t count = source.length();
     return std::string(source.take(count));
-}
-
-std::vector<double> vtk_reals(std::string_view bytes, VtkNumber kind, const VtkStorage& storage) {
-    if (kind == VtkNumber::float32) return copied<float, double>(bytes, storage);
-    if (kind == VtkNumber::float64) return copied<double, double>(bytes, storage);
-    return integers_as<double>(bytes, kind, storage);
-}
-
-std::vector<std::int64_t> vtk_integers(std::string_view bytes, VtkNumber kind,
-                                       const VtkStorage& storage) {
-    return integers_as<std::int64_t>(bytes, kind, storage);
 }
 
 }  // namespace myotet::meshfiles

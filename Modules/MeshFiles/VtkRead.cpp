@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 
 #include "Core/Errors.h"
+#include "MeshFiles/Numbers.h"
 #include "MeshFiles/RawMesh.h"
 #include "MeshFiles/RawSurface.h"
 #include "MeshFiles/VtkBytes.h"
@@ -50,15 +51,16 @@ public:
         return tag == "DataArray" || tag == "Array";
     }
     [[nodiscard]] std::vector<double> reals(const pugi::xml_node& array) const {
-        const VtkNumber kind = kind_of(array);
-        return is_text(array) ? parsed<double>(array) : vtk_reals(bytes_of(array), kind, storage_);
+        const NumberKind kind = kind_of(array);
+        return is_text(array) ? parsed<double>(array)
+                              : reals_in(bytes_of(array), kind, storage_.big_endian);
     }
     [[nodiscard]] std::vector<std::int64_t> integers(const pugi::xml_node& array) const {
-        const VtkNumber kind = kind_of(array);
-        require(array, kind != VtkNumber::float32 && kind != VtkNumber::float64,
+        const NumberKind kind = kind_of(array);
+        require(array, kind != NumberKind::float32 && kind != NumberKind::float64,
                 "holds real numbers where integers are needed");
         return is_text(array) ? parsed<std::int64_t>(array)
-                              : vtk_integers(bytes_of(array), kind, storage_);
+                              : integers_in(bytes_of(array), kind, storage_.big_endian);
     }
     /// Texts end with a zero; none when there is no such array.
     [[nodiscard]] std::vector<std::string> texts(const char* name) const {
@@ -147,13 +149,13 @@ private:
         fail(node.offset_debug(),
              "says " + std::string(name) + "=\"" + std::string(said) + "\", which is not known");
     }
-    VtkNumber kind_of(const pugi::xml_node& array) const {
-        static constexpr std::pair<std::string_view, VtkNumber> kKinds[] = {
-            {"Int8", VtkNumber::int8},       {"UInt8", VtkNumber::uint8},
-            {"Int16", VtkNumber::int16},     {"UInt16", VtkNumber::uint16},
-            {"Int32", VtkNumber::int32},     {"UInt32", VtkNumber::uint32},
-            {"Int64", VtkNumber::int64},     {"UInt64", VtkNumber::uint64},
-            {"Float32", VtkNumber::float32}, {"Float64", VtkNumber::float64}};
+    NumberKind kind_of(const pugi::xml_node& array) const {
+        static constexpr std::pair<std::string_view, NumberKind> kKinds[] = {
+            {"Int8", NumberKind::int8},       {"UInt8", NumberKind::uint8},
+            {"Int16", NumberKind::int16},     {"UInt16", NumberKind::uint16},
+            {"Int32", NumberKind::int32},     {"UInt32", NumberKind::uint32},
+            {"Int64", NumberKind::int64},     {"UInt64", NumberKind::uint64},
+            {"Float32", NumberKind::float32}, {"Float64", NumberKind::float64}};
         return one_of(array, "type", kKinds);
     }
     bool is_text(const pugi::xml_node& array) const {
