@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "Core/Errors.h"
 #include "Support/TemporaryFolder.h"
 
@@ -62,18 +64,19 @@ TEST(Hdf5, ChangedAndCutFilesBreakNothing) {
     const std::vector<double> reals{1, 2, 3, 4, 5, 6};
     write_hdf5(std::vector<Table>{{"a", 3, reals, {}}}, file);
     const std::string whole = read_bytes(file);
+    std::fstream changing(file, std::ios::binary | std::ios::in | std::ios::out);
     for (std::size_t at = 0; at < whole.size(); ++at)
-        for (const int pattern : {0x01, 0x15, 0x80, 0xff}) {
-            std::string damaged = whole;
-            damaged[at] = static_cast<char>(damaged[at] ^ pattern);
-            if (damaged == whole) continue;
-            write_bytes(file, damaged);
+        for (const char byte : {static_cast<char>(whole[at] ^ 0x15), '\xff', whole[at]}) {
+            changing.seekp(static_cast<std::streamoff>(at));
+            changing.put(byte).flush();  // the last one mends it
             try {
                 EXPECT_EQ(read_reals(file, "a", 3).size() % 3, 0u);
             } catch (const Error&) {
+                EXPECT_NE(byte, whole[at]);
             }
         }
-    for (std::size_t length = 0; length < whole.size(); length += 5) {
+    changing.close();
+    for (std::size_t length = 0; length < whole.size(); length += 50) {
         write_bytes(file, whole.substr(0, length));
         try {
             EXPECT_EQ(read_reals(file, "a", 3), reals) << length;
