@@ -23,6 +23,8 @@ constexpr int kMostHalvings = 25;
 // The first solves need no more than a direction.
 constexpr double kLoosest = 0.1, kTightest = 1e-10;
 constexpr double kGuess = 0.01;
+// The last solve aims at this part of the tolerance.
+constexpr double kEnough = 0.3;
 // How far along a downward curve a node may move at first, and least: parts of the body.
 constexpr double kReach = 0.02, kLeastReach = 1e-4;
 void require(bool holds, const char* field, double value, const char* rule) {
@@ -106,10 +108,10 @@ Equilibrium::Equilibrium(std::vector<Potential*> potentials, std::size_t nodes,
     K_ = block_pattern(nodes, all);
 }
 
-double Equilibrium::move_to(const NodeVectors& x) {
-    double energy = 0;
-    for (Potential* potential : potentials_) energy += potential->move_to(x);
-    return energy;
+double Equilibrium::energy(const NodeVectors& x) {
+    double sum = 0;
+    for (Potential* potential : potentials_) sum += potential->move_to(x);
+    return sum;
 }
 
 NodeVectors Equilibrium::forces() const {
@@ -143,14 +145,14 @@ LinearSummary Equilibrium::direction(const NodeVectors& right, double tolerance,
 LinearSummary Equilibrium::predict(const NodeVectors& x, NodeVectors& by) {
     for (std::size_t n = 0; n < by.size(); ++n)
         if (!held_[n]) by[n].setZero();
-    (void)move_to(x);
+    (void)energy(x);
     return direction(forces(), kGuess, by);
 }
 
 // Along d from x, where the forces are those. Returns the part of d that was gone, 0 when
 // no step goes downhill.
 double Equilibrium::line_search(const NodeVectors& forces_here, const NodeVectors& d,
-                                double rounding, NodeVectors& x, double& energy) {
+                                double rounding, NodeVectors& x, double& level) {
     const double slope = -dot(forces_here, d);
     if (!(slope < 0)) return 0;
     double step = largest_step(x, d);
@@ -158,22 +160,22 @@ double Equilibrium::line_search(const NodeVectors& forces_here, const NodeVector
     for (int i = 0; i < kMostHalvings; ++i, step *= 0.5) {
         NodeVectors trial = x;
         add_scaled(step, d, trial);
-        const double there = move_to(trial);
-        const bool decreased = there <= energy + kDecrease * step * slope;
-        if (!decreased && !(there <= energy + rounding)) continue;
+        const double there = energy(trial);
+        const bool decreased = there <= level + kDecrease * step * slope;
+        if (!decreased && !(there <= level + rounding)) continue;
         if (decreased || std::abs(dot(forces(), d)) <= kFlatter * std::abs(slope)) {
             x = std::move(trial);
-            energy = there;
+            level = there;
             return step;
         }
     }
-    (void)move_to(x);
+    (void)energy(x);
     return 0;
 }
 
 EquilibriumSummary Equilibrium::find(NodeVectors& x) {
     EquilibriumSummary summary;
-    summary.energy = move_to(x);
+    summary.energy = energy(x);
     summary.message = "the energy at the start is not finite";
     if (!std::isfinite(summary.energy)) return summary;
     Reach reach(x);
@@ -192,7 +194,9 @@ EquilibriumSummary Equilibrium::find(NodeVectors& x) {
         const double left = std::sqrt(dot(f, f));
         first = std::max(first, left);
         NodeVectors d(x.size(), Vec3::Zero());
-        const LinearSummary linear = direction(f, std::clamp(left / first, kTightest, kLoosest), d);
+        const double enough = kEnough * options_.tolerance / summary.residual;
+        const LinearSummary linear =
+            direction(f, std::clamp(std::max(left / first, enough), kTightest, kLoosest), d);
         ++summary.iterations;
         summary.linear_iterations += linear.iterations;
 

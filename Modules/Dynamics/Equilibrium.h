@@ -34,7 +34,8 @@ struct EquilibriumSummary {
 /// Finds positions where the sum of some potentials is least while some nodes are
 /// held, by Newton's method [Nocedal and Wright 2006, ch. 3, 7]:
 /// - a direction d from K d = f by conjugate gradients, solved the better the nearer the
-///   end (relative residual of at most |f| / |f at the start|: second order is kept);
+///   end (relative residual |f| / |f at the start|: second order is kept), but no better
+///   than the end needs;
 /// - where the energy curves downwards, as in buckling, as far as conjugate gradients
 ///   came and on along the curve, by a reach that grows while such steps succeed;
 /// - a step at most 90 % of the way to where the energy becomes infinite, halved until
@@ -61,6 +62,7 @@ public:
     /// a load step.
     [[nodiscard]] LinearSummary predict(const NodeVectors& x, NodeVectors& by);
 
+    /// The least of what the potentials allow.
     [[nodiscard]] double largest_step(const NodeVectors& x, const NodeVectors& by) const;
 
     /// Forces of the potentials on all nodes where they stand, N: nothing on free nodes
@@ -68,12 +70,12 @@ public:
     [[nodiscard]] NodeVectors forces() const;
 
 private:
-    [[nodiscard]] double move_to(const NodeVectors& x);
+    [[nodiscard]] double energy(const NodeVectors& x);
     [[nodiscard]] LinearSummary direction(const NodeVectors& right, double tolerance,
                                           NodeVectors& d);
     [[nodiscard]] double residual(const NodeVectors& forces) const;
     double line_search(const NodeVectors& forces, const NodeVectors& d, double rounding,
-                       NodeVectors& x, double& energy);
+                       NodeVectors& x, double& level);
 
     std::vector<Potential*> potentials_;
     std::vector<char> held_;
