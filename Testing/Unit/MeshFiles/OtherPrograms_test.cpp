@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What others write, we read; what we write, gmsh and meshio read.
+// What others write, we read; what we write, gmsh, meshio and CalculiX read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
 
 #include "NamedMeshes.h"
 #include "Support/RunProgram.h"
@@ -98,6 +101,50 @@ TEST(MeshioReads, WhatWeWrite) {
           "a.mesh;6;('triangle', 10);('tetra', 3)\n", "a.stl;6;('triangle', 8)\n",
           "a.obj;6;('triangle', 2);('triangle', 6);('triangle', 2)\n", "one.ply;4;('triangle', 2)"})
         EXPECT_THAT(ran.out, HasSubstr(line));
+}
+
+/// The unit cube as six tetrahedra around a diagonal: nodes numbered by x + 2 y + 4 z.
+NamedMesh cube() {
+    TetMesh mesh;
+    for (int n = 0; n < 8; ++n) mesh.points.emplace_back(n & 1, n >> 1 & 1, n >> 2);
+    mesh.tets = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                 {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+    mesh.labels.assign(mesh.tets.size(), 5);
+    return with_named_boundary(std::move(mesh), {{5, "block"}});
+}
+
+// CalculiX prints seven digits.
+constexpr double kPrinted = 1e-6;
+
+/// Law: the pressure p all around a free body shrinks it by (1 - 2 nu) p / E
+/// everywhere. Needs the elements, every face of the exterior and its side.
+TEST(CalculixSolves, OurAbaqusUnderPressure) {
+    constexpr const char* kCalculix = "/usr/bin/ccx";
+    if (!std::filesystem::exists(kCalculix)) GTEST_SKIP() << "CalculiX is not installed";
+    const TemporaryFolder folder;
+    const NamedMesh mesh = cube();
+    write_mesh(mesh, folder / "mesh.inp");
+    write_bytes(folder / "job.inp", "*INCLUDE, INPUT=" + (folder / "mesh.inp").string() +
+                                        "\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.3\n"
+                                        "*SOLID SECTION, ELSET=block, MATERIAL=M\n"
+                                        "*BOUNDARY\n1, 1, 3\n2, 2, 3\n3, 3, 3\n"
+                                        "*STEP\n*STATIC\n*DSLOAD\n\"block|exterior\", P, 0.001\n"
+                                        "*NODE PRINT, NSET=\"block|exterior\"\nU\n*END STEP\n");
+    const auto ran = run_program(kCalculix, {"-i", folder / "job"});
+    ASSERT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_THAT(ran.out, ::testing::Not(HasSubstr("WARNING")));
+    std::ifstream results(folder / "job.dat");
+    std::string line;
+    int nodes = 0, number = 0;
+    Vec3 moved;
+    while (std::getline(results, line)) {
+        std::istringstream words(line);
+        if (!(words >> number >> moved[0] >> moved[1] >> moved[2])) continue;
+        const Vec3 wanted = -0.4e-3 * mesh.mesh.points.at(static_cast<std::size_t>(number - 1));
+        EXPECT_NEAR((moved - wanted).norm(), 0, kPrinted * 1e-3) << number;
+        ++nodes;
+    }
+    EXPECT_EQ(nodes, 8);
 }
 
 // gmsh writes Nastran's small fields: eight characters, five digits at least.
