@@ -55,9 +55,6 @@ void write_pairs() {
 
 }  // namespace
 
-/// HDF5 1.10 loses memory of damaged files.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0 || (data[0] & 15) >= fuzz::kMeshEndings.size()) return 0;
     static const bool ready = (write_pairs(), true);
