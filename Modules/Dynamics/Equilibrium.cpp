@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "Core/Errors.h"
 #include "Dynamics/NodeAlgebra.h"
+#include "Dynamics/Require.h"
 
 namespace myotet::dynamics {
 namespace {
@@ -27,10 +27,6 @@ constexpr double kGuess = 0.01;
 constexpr double kEnough = 0.3;
 // How far along a downward curve a node may move at first, and least: parts of the body.
 constexpr double kReach = 0.02, kLeastReach = 1e-4;
-void require(bool holds, const char* field, double value, const char* rule) {
-    if (!holds)
-        throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
-}
 
 // What rounding of the positions alone does to forces and energies: epsilon times
 // |K| |x|, and |K| times the squared distance of neighbours.
@@ -93,7 +89,8 @@ Equilibrium::Equilibrium(std::vector<Potential*> potentials, std::size_t nodes,
                          const std::vector<std::int32_t>& held, const EquilibriumOptions& options)
     : potentials_(std::move(potentials)), held_(nodes, 0), options_(options) {
     options_.validate();
-    require(!potentials_.empty(), "number of potentials", 0, "there must be at least one");
+    require(!potentials_.empty(), "number of potentials", potentials_.size(),
+            "there must be at least one");
     for (const std::int32_t n : held) {
         require(n >= 0 && n < static_cast<std::int32_t>(nodes), "held node", n,
                 "it must be one of the nodes");

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Core/Errors.h"
 #include "Dynamics/NodeAlgebra.h"
+#include "Dynamics/Require.h"
 
 namespace myotet::dynamics {
 namespace {
@@ -15,11 +15,6 @@ constexpr double kMostOfTheWay = 0.7;
 constexpr double kGrowth = 1.5;
 // Loads nearer to one another than this are the same.
 constexpr double kSameLoad = 1e-12;
-
-void require(bool holds, const char* field, double value, const char* rule) {
-    if (!holds)
-        throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
-}
 
 class Loader {
 public:
@@ -88,7 +83,8 @@ void LoadOptions::validate() const {
 LoadSummary apply_load(const LoadCase& load_case, const LoadOptions& options, NodeVectors& x,
                        const std::function<void(const LoadState&)>& watch) {
     options.validate();
-    require(load_case.apply != nullptr, "apply", 0, "there must be a function");
+    if (!load_case.apply)
+        throw InputError("LoadCase::apply is empty, but something must move the held nodes");
     Loader loader(load_case, options, x);
     LoadSummary summary;
     const auto show = [&](double load, const EquilibriumSummary& step) {
