@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace myotet::surface {
 namespace {
@@ -10,7 +11,6 @@ namespace {
 constexpr Triangle kRemoved{-1, -1, -1};
 constexpr int kLeastValence = 4;
 constexpr int kLeastRimValence = 3;
-constexpr double kFacing = 0.2;  // cosine of 78 degrees
 
 void remove_from(std::vector<std::int32_t>& list, std::int32_t item) {
     list.erase(std::find(list.begin(), list.end(), item));
@@ -22,14 +22,6 @@ int valence(const Fans& fans, std::int32_t point) {
 
 int least_valence(const Fans& fans, std::int32_t point) {
     return fans.rim[point] ? kLeastRimValence : kLeastValence;
-}
-
-std::int32_t after(const Triangle& t, std::int32_t point) {
-    return t[0] == point ? t[1] : t[1] == point ? t[2] : t[0];
-}
-
-std::int32_t before(const Triangle& t, std::int32_t point) {
-    return t[0] == point ? t[2] : t[1] == point ? t[0] : t[1];
 }
 
 void put(Triangle& t, std::int32_t old, std::int32_t now) {
@@ -45,6 +37,8 @@ Fans make_fans(const TriMesh& mesh) {
     fans.triangles = mesh.triangles;
     fans.normals.assign(n, Vec3::Zero());
     fans.sizes.assign(n, 0);
+    fans.caps.assign(n, std::numeric_limits<double>::infinity());
+    fans.watched.assign(n, 0);
     fans.around.resize(n);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (const std::int32_t v : mesh.triangles[t])
@@ -132,30 +126,17 @@ double sharpest_cosine(const Vec3& a, const Vec3& b, const Vec3& c) {
     return product > 0 ? (s[1] + s[2] - s[0]) / (2 * std::sqrt(product)) : 1;
 }
 
-bool faces_outward(const Fans& fans, const Triangle& t) {
-    const Vec3 n = double_area(fans.points[t[0]], fans.points[t[1]], fans.points[t[2]]);
-    const double least = kFacing * n.norm();
-    return n.dot(fans.normals[t[0]]) > least && n.dot(fans.normals[t[1]]) > least &&
-           n.dot(fans.normals[t[2]]) > least;
-}
-
-bool faces_outward(const Fans& fans, const Triangle& t, std::int32_t moved, const Vec3& at,
-                   const Vec3& normal) {
-    const std::int32_t b = after(t, moved), c = before(t, moved);
-    const Vec3 n = double_area(at, fans.points[b], fans.points[c]);
-    const double least = kFacing * n.norm();
-    return n.dot(normal) > least && n.dot(fans.normals[b]) > least &&
-           n.dot(fans.normals[c]) > least;
-}
-
 bool may_flip(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star) {
     if (!star.inner()) return false;
     const auto [c, d] = star.opposite;
     if (c == d || (fans.rim[c] && fans.rim[d])) return false;
     if (valence(fans, a) <= least_valence(fans, a) || valence(fans, b) <= least_valence(fans, b))
         return false;
-    return !edge_star(fans, c, d).exists() && faces_outward(fans, {d, b, c}) &&
-           faces_outward(fans, {c, a, d});
+    if (edge_star(fans, c, d).exists()) return false;
+    const std::vector<std::int32_t> ring = neighbours(fans, d);
+    return std::ranges::none_of(neighbours(fans, c), [&](std::int32_t n) {
+        return n != a && n != b && std::ranges::find(ring, n) != ring.end();
+    });
 }
 
 void flip(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star) {
@@ -175,7 +156,9 @@ std::int32_t split(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& s
     fans.points.push_back(at);
     fans.normals.push_back(Vec3::Zero());
     fans.sizes.push_back(0.5 * (fans.sizes[a] + fans.sizes[b]));
+    fans.caps.push_back(std::max(fans.caps[a], fans.caps[b]));
     fans.rim.push_back(star.inner() ? 0 : 1);
+    fans.watched.push_back(fans.watched[a] || fans.watched[b]);
     fans.around.emplace_back();
     for (int side = 0; side < 2; ++side) {
         const std::int32_t t = star.triangle[side];
@@ -191,6 +174,22 @@ std::int32_t split(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& s
         fans.around[m].push_back(fresh);
     }
     return m;
+}
+
+bool closes_ring(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star) {
+    const std::vector<std::int32_t> ring = neighbours(fans, b);
+    const auto opposite = [&](std::int32_t n) {
+        return n == star.opposite[0] || n == star.opposite[1];
+    };
+    const auto beside = [](const std::vector<std::int32_t>& of, std::int32_t n) {
+        return std::ranges::find(of, n) != of.end();
+    };
+    for (const std::int32_t n : neighbours(fans, a)) {
+        if (n == b || opposite(n)) continue;
+        for (const std::int32_t m : neighbours(fans, n))
+            if (m != a && !opposite(m) && beside(ring, m)) return true;
+    }
+    return false;
 }
 
 bool may_collapse(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star) {

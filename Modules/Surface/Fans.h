@@ -20,9 +20,15 @@ struct Fans {
     std::vector<Vec3> points;                       ///< mm
     std::vector<Vec3> normals;                      ///< unit, of the level set at the points
     std::vector<double> sizes;                      ///< wished edge length at the points, mm
+    std::vector<double> caps;                       ///< that sizes must not exceed, mm
     std::vector<char> rim;                          ///< whether the point is on the boundary curve
+    std::vector<char> watched;                      ///< points about which crossings are looked for
     std::vector<Triangle> triangles;                ///< removed ones are {-1, -1, -1}
     std::vector<std::vector<std::int32_t>> around;  ///< triangles at each point; none: removed
+
+    /// Triangles that those about watched points might cross; later ones, too.
+    std::vector<std::int32_t> beside;
+    std::size_t later = 0;  ///< number of the first of these
 
     [[nodiscard]] bool alive(std::size_t triangle) const { return triangles[triangle][0] >= 0; }
 };
@@ -46,6 +52,14 @@ void find_rim(Fans& fans);
 
 [[nodiscard]] EdgeStar edge_star(const Fans& fans, std::int32_t a, std::int32_t b);
 
+/// The corner of a triangle that follows one of its points, and the one before.
+[[nodiscard]] inline std::int32_t after(const Triangle& t, std::int32_t point) {
+    return t[0] == point ? t[1] : t[1] == point ? t[2] : t[0];
+}
+[[nodiscard]] inline std::int32_t before(const Triangle& t, std::int32_t point) {
+    return t[0] == point ? t[2] : t[1] == point ? t[0] : t[1];
+}
+
 /// The other ends of all edges at a point, in no particular, but fixed order.
 [[nodiscard]] std::vector<std::int32_t> neighbours(const Fans& fans, std::int32_t point);
 
@@ -64,15 +78,8 @@ void find_rim(Fans& fans);
 /// for one that is flat or has no area.
 [[nodiscard]] double sharpest_cosine(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Whether a triangle of these points would face as the level set does there:
-/// its normal within 78 degrees of that at each corner.
-[[nodiscard]] bool faces_outward(const Fans& fans, const Triangle& t);
-/// The same with point `moved` at `at` with normal `normal`.
-[[nodiscard]] bool faces_outward(const Fans& fans, const Triangle& t, std::int32_t moved,
-                                 const Vec3& at, const Vec3& normal);
-
 /// Whether the edge (a, b) may be replaced by the one between its opposite
-/// corners: by topology, by the rim's rules and by the triangles' orientation.
+/// corners: by topology and by the rim's rules.
 [[nodiscard]] bool may_flip(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star);
 void flip(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star);
 
@@ -81,9 +88,16 @@ void flip(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star);
 std::int32_t split(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star,
                    const Vec3& at);
 
+/// Whether three points would be joined by edges in a ring that is no triangle if
+/// a and b were one. Such a ring is a neck of the surface: with three points about
+/// it, nothing keeps its sides apart.
+[[nodiscard]] bool closes_ring(const Fans& fans, std::int32_t a, std::int32_t b,
+                               const EdgeStar& star);
+
 /// Whether point a may go and b take its triangles: the link condition (the
 /// common neighbours of a and b are the corners opposite their edge), the
 /// rim's rules, and no point left with fewer than four edges (three on the rim).
+/// closes_ring is asked for separately.
 [[nodiscard]] bool may_collapse(const Fans& fans, std::int32_t a, std::int32_t b,
                                 const EdgeStar& star);
 void collapse(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star);

@@ -10,10 +10,13 @@
 namespace myotet::surface {
 namespace {
 
-constexpr int kSteps = 12;
+constexpr int kSteps = 16;
 constexpr double kFarthest = 2;  // in reaches, from where it began
 // Of the reach, which is about an edge: far below the hundredth that is promised.
 constexpr double kClose = 1e-4;
+// A signed distance is never farther from its surface than |phi|; where an
+// interpolated one is flatter, steps stay short of a neighbouring sheet.
+constexpr double kLongestStep = 1.25;
 // Squared sine of the angle between two gradients below which a step along both
 // surfaces would be longer than what it corrects by a factor of about 30.
 constexpr double kParallel = 1e-3;
@@ -37,23 +40,24 @@ Vec3 newton_step(const FieldSample& s, const FieldSample& t) {
     return y * s.gradient + z * t.gradient;
 }
 
-/// Steps until `evaluate(x)`, a pair of error and step, has a small error.
-template <class Evaluate>
-Vec3 iterate(const Vec3& from, double reach, const Evaluate& evaluate) {
-    Vec3 at = from, best = from;
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kSteps; ++i) {
-        const auto [error, step] = evaluate(at);
-        if (error < least) {
-            least = error;
-            best = at;
+/// A zero of phi between two points where its signs differ, by false position
+/// with the kept end's value halved (the Illinois rule).
+Vec3 zero_between(const Field& phi, Vec3 a, double at_a, Vec3 b, double at_b, double close) {
+    Vec3 middle = a;
+    for (int i = 0; i < 2 * kSteps; ++i) {
+        middle = a + (b - a) * (at_a / (at_a - at_b));
+        const double value = phi(middle).value;
+        if (std::abs(value) <= close) break;
+        if ((value > 0) == (at_b > 0))
+            at_a /= 2;
+        else {
+            a = b;
+            at_a = at_b;
         }
-        if (error <= kClose * reach) break;
-        at += no_longer_than(step, reach);
-        // Beyond, it is on its way to another part of the surface.
-        if (!((at - from).norm() <= kFarthest * reach)) break;
+        b = middle;
+        at_b = value;
     }
-    return best;
+    return middle;
 }
 
 Vec3 unit_normal(const Field& phi, const Vec3& at) { return phi(at).gradient.normalized(); }
@@ -73,18 +77,38 @@ Field offset(Field field, double distance) {
     };
 }
 
-Vec3 project(const Field& phi, const Vec3& from, double reach) {
-    return iterate(from, reach, [&](const Vec3& at) {
+std::optional<Vec3> project(const Field& phi, const Vec3& from, double reach) {
+    Vec3 at = from, before = from;
+    double value_before = 0;
+    for (int i = 0; i < kSteps; ++i) {
         const FieldSample s = phi(at);
-        return std::pair(std::abs(s.value), newton_step(s));
-    });
+        if (std::abs(s.value) <= kClose * reach) return at;
+        if (s.value * value_before < 0) {
+            const Vec3 zero = zero_between(phi, before, value_before, at, s.value, kClose * reach);
+            return (zero - from).norm() <= kFarthest * reach ? std::optional(zero) : std::nullopt;
+        }
+        before = at;
+        value_before = s.value;
+        at += no_longer_than(newton_step(s), kLongestStep * std::abs(s.value));
+        if (!((at - from).norm() <= kFarthest * reach)) return std::nullopt;
+    }
+    return std::nullopt;
 }
 
-Vec3 project(const Field& phi, const Field& psi, const Vec3& from, double reach) {
-    return iterate(from, reach, [&](const Vec3& at) {
+std::optional<Vec3> project(const Field& phi, const Field& psi, const Vec3& from, double reach) {
+    Vec3 at = from;
+    double stride = 1, error_before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 2 * kSteps; ++i) {
         const FieldSample s = phi(at), t = psi(at);
-        return std::pair(std::max(std::abs(s.value), std::abs(t.value)), newton_step(s, t));
-    });
+        const double error = std::max(std::abs(s.value), std::abs(t.value));
+        if (error <= kClose * reach) return at;
+        // At a kink whole steps may go to and fro for ever.
+        stride = error < 0.75 * error_before ? std::min(1.0, 1.5 * stride) : 0.5 * stride;
+        error_before = error;
+        at += stride * no_longer_than(newton_step(s, t), reach);
+        if (!((at - from).norm() <= kFarthest * reach)) break;
+    }
+    return std::nullopt;
 }
 
 double largest_curvature(const Field& phi, const Vec3& point, double step) {
@@ -97,6 +121,21 @@ double largest_curvature(const Field& phi, const Vec3& point, double step) {
     const Vec3 du = turn(u), dv = turn(v);
     const double a = du.dot(u), b = 0.5 * (du.dot(v) + dv.dot(u)), c = dv.dot(v);
     return 0.5 * std::abs(a + c) + std::hypot(0.5 * (a - c), b);
+}
+
+double thickness(const Field& phi, const Vec3& point, double limit) {
+    const Vec3 n = unit_normal(phi, point);
+    // Half way to the limit a slab that thick has phi = limit / 2 on both sides.
+    const auto way = [&](double side) {
+        double along = 0;
+        for (int i = 0; i < kSteps && along < limit; ++i) {
+            const double ahead = side * phi(point + side * along * n).value;
+            if (i > 0 && ahead <= 0) return along;
+            along += std::max(ahead, limit / kSteps);
+        }
+        return limit;
+    };
+    return std::min(way(-1), way(1));
 }
 
 }  // namespace myotet::surface

@@ -10,7 +10,7 @@
 namespace myotet::surface {
 namespace {
 
-constexpr double kTurnedOver = 2;  // worse than any cosine
+constexpr double kTurnedOver = 3;  // worse than any cosine
 constexpr double kGain = 1e-4;     // of a cosine: below it nothing has changed
 constexpr int kDirections = 8;
 constexpr double kFirstStep = 0.2, kLastStep = 0.01;  // of the wished edge
@@ -22,25 +22,27 @@ double sharpest(const Fans& fans, const Triangle& t) {
     return sharpest_cosine(fans.points[t[0]], fans.points[t[1]], fans.points[t[2]]);
 }
 
-/// Largest cosine in the star of v as it is.
-double worst_around(const Fans& fans, std::int32_t v) {
+/// Largest cosine in the star of v if it is at `at`; more where something is
+/// wrong, by how much is. Not looked at closely when it is above `limit` anyway.
+double worst_around(const Fans& fans, const Guide& guide, std::int32_t v, const Corner& at,
+                    double limit) {
     double worst = -1;
     for (const std::int32_t t : fans.around[v]) {
         const Triangle& f = fans.triangles[t];
-        worst = std::max(worst, faces_outward(fans, f) ? sharpest(fans, f) : kTurnedOver);
+        worst = std::max(
+            worst, sharpest_cosine(at.point, fans.points[after(f, v)], fans.points[before(f, v)]));
     }
-    return worst;
+    return worst < limit ? worst + kTurnedOver * faults_around(fans, guide.phi, v, at) : worst;
 }
 
-struct Position {
-    Vec3 point, normal;
-};
+double worst_around(const Fans& fans, const Guide& guide, std::int32_t v) {
+    return worst_around(fans, guide, v, corner_of(fans, v),
+                        std::numeric_limits<double>::infinity());
+}
 
-Position position_of(const Fans& fans, std::int32_t v) { return {fans.points[v], fans.normals[v]}; }
-
-void set_position(Fans& fans, std::int32_t v, const Position& p) {
-    fans.points[v] = p.point;
-    fans.normals[v] = p.normal;
+void set_corner(Fans& fans, std::int32_t v, const Corner& at) {
+    fans.points[v] = at.point;
+    fans.normals[v] = at.normal;
 }
 
 /// Directions that v may move in: about the normal, or along the rim.
@@ -62,20 +64,18 @@ std::vector<Vec3> directions_at(const Fans& fans, std::int32_t v) {
 
 /// Tries one place; keeps it when it is better than `worst`.
 bool try_place(Fans& fans, const Guide& guide, std::int32_t v, const Vec3& at, double& worst) {
-    const Position before = position_of(fans, v);
-    place(fans, guide, v, at);
-    const double now = worst_around(fans, v);
-    if (now < worst - kGain) {
-        worst = now;
-        return true;
-    }
-    set_position(fans, v, before);
-    return false;
+    const std::optional<Corner> there = landing(fans, guide, v, at);
+    if (!there) return false;
+    const double now = worst_around(fans, guide, v, *there, worst - kGain);
+    if (!(now < worst - kGain)) return false;
+    worst = now;
+    set_corner(fans, v, *there);
+    return true;
 }
 
 /// Pattern search: steps that help are repeated, then halved.
 bool move_point(Fans& fans, const Guide& guide, std::int32_t v) {
-    double worst = worst_around(fans, v);
+    double worst = worst_around(fans, guide, v);
     double step = kFirstStep * fans.sizes[v];
     bool moved = false;
     for (int move = 0; move < kMovesOfPoint && step > kLastStep * fans.sizes[v]; ++move) {
@@ -91,13 +91,15 @@ bool move_point(Fans& fans, const Guide& guide, std::int32_t v) {
     return moved;
 }
 
-bool flip_if_better(Fans& fans, std::int32_t a, std::int32_t b) {
+bool flip_if_better(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t b) {
     const EdgeStar star = edge_star(fans, a, b);
     if (!star.inner()) return false;
     const auto [c, d] = star.opposite;
     const double now = std::max(sharpest(fans, {a, b, c}), sharpest(fans, {b, a, d}));
     const double then = std::max(sharpest(fans, {d, b, c}), sharpest(fans, {c, a, d}));
-    if (!(then < now - kGain) || !may_flip(fans, a, b, star)) return false;
+    if (!(then < now - kGain) || !may_flip(fans, a, b, star) ||
+        !flip_faces_outward(fans, guide.phi, a, b, star))
+        return false;
     flip(fans, a, b, star);
     return true;
 }
@@ -110,36 +112,35 @@ bool at_sharp_triangles(Fans& fans, double cosine, const Act& act) {
     return changed;
 }
 
-bool flip_edges(Fans& fans, double cosine) {
+bool flip_edges(Fans& fans, const Guide& guide, double cosine) {
     return at_sharp_triangles(fans, cosine, [&](std::size_t t) {
         for (int i = 0; i < 3; ++i) {
             const Triangle f = fans.triangles[t];
-            if (flip_if_better(fans, f[i], f[(i + 1) % 3])) return true;
+            if (flip_if_better(fans, guide, f[i], f[(i + 1) % 3])) return true;
         }
         return false;
     });
 }
 
+/// Also those of triangles that do not face outward.
 bool move_points(Fans& fans, const Guide& guide, double cosine) {
-    return at_sharp_triangles(fans, cosine, [&](std::size_t t) {
-        bool moved = false;
-        for (const std::int32_t v : Triangle(fans.triangles[t]))
-            moved |= move_point(fans, guide, v);
-        return moved;
-    });
+    bool moved = false;
+    for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+        if (fans.alive(t) && (sharpest(fans, fans.triangles[t]) > cosine ||
+                              !faces_outward(fans, guide.phi, fans.triangles[t])))
+            for (const std::int32_t v : fans.triangles[t]) moved |= move_point(fans, guide, v);
+    return moved;
 }
 
 /// Largest cosine among the triangles that would be b's if a became b at `at`.
-double worst_after_collapse(Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star) {
+double worst_after_collapse(const Fans& fans, std::int32_t a, std::int32_t b, const Vec3& at) {
     double worst = -1;
-    const Position b_now = position_of(fans, b);
     for (const std::int32_t from : {a, b})
         for (const std::int32_t t : fans.around[from]) {
-            if (t == star.triangle[0] || t == star.triangle[1]) continue;
-            Triangle f = fans.triangles[t];
-            if (!faces_outward(fans, f, from, b_now.point, b_now.normal)) return kTurnedOver;
-            std::ranges::replace(f, from, b);
-            worst = std::max(worst, sharpest(fans, f));
+            const std::int32_t c = after(fans.triangles[t], from),
+                               d = before(fans.triangles[t], from);
+            if (c == a || c == b || d == a || d == b) continue;
+            worst = std::max(worst, sharpest_cosine(at, fans.points[c], fans.points[d]));
         }
     return worst;
 }
@@ -148,17 +149,15 @@ double worst_after_collapse(Fans& fans, std::int32_t a, std::int32_t b, const Ed
 bool collapse_if_better(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t b) {
     if (fans.rim[a] && !fans.rim[b]) std::swap(a, b);
     const EdgeStar star = edge_star(fans, a, b);
-    if (!may_collapse(fans, a, b, star)) return false;
-    const double now = std::max(worst_around(fans, a), worst_around(fans, b));
-    const Position before = position_of(fans, b);
-    if (fans.rim[a] == fans.rim[b]) place(fans, guide, b, 0.5 * (fans.points[a] + fans.points[b]));
-    if (worst_after_collapse(fans, a, b, star) < now - kGain) {
-        collapse(fans, a, b, star);
-        move_point(fans, guide, b);
-        return true;
-    }
-    set_position(fans, b, before);
-    return false;
+    if (!may_collapse(fans, a, b, star) || closes_ring(fans, a, b, star)) return false;
+    const std::optional<Corner> at = meeting_point(fans, guide, a, b);
+    if (!at || !collapse_faces_outward(fans, guide.phi, a, b, *at)) return false;
+    const double now = std::max(worst_around(fans, guide, a), worst_around(fans, guide, b));
+    if (!(worst_after_collapse(fans, a, b, at->point) < now - kGain)) return false;
+    collapse(fans, a, b, star);
+    set_corner(fans, b, *at);
+    move_point(fans, guide, b);
+    return true;
 }
 
 bool collapse_edges(Fans& fans, const Guide& guide, double cosine) {
@@ -186,16 +185,14 @@ bool split_edges(Fans& fans, const Guide& guide, double cosine) {
         for (int i = 1; i < 3; ++i)
             if (squared(i) > squared(longest)) longest = i;
         const std::int32_t a = f[longest], b = f[(longest + 1) % 3];
-        const Vec3 middle = 0.5 * (fans.points[a] + fans.points[b]);
-        place(fans, guide, split(fans, a, b, edge_star(fans, a, b), middle), middle);
-        changed = true;
+        changed |= split_in_middle(fans, guide, a, b);
     }
     return changed;
 }
 
 void settle(Fans& fans, const Guide& guide, const AngleGoal& goal, double cosine) {
     for (int round = 0; round < goal.rounds; ++round) {
-        const bool flipped = flip_edges(fans, cosine);
+        const bool flipped = flip_edges(fans, guide, cosine);
         const bool moved = move_points(fans, guide, cosine);
         if (!flipped && !moved) break;
     }
@@ -203,16 +200,22 @@ void settle(Fans& fans, const Guide& guide, const AngleGoal& goal, double cosine
 
 }  // namespace
 
-void improve_angles(Fans& fans, const Guide& guide, const AngleGoal& goal) {
+void improve_angles(Fans& fans, const Guide& guide, CrossingGuard& guard, const AngleGoal& goal) {
     const double cosine = std::cos(goal.smallest_deg * std::numbers::pi / 180);
-    settle(fans, guide, goal, cosine);
+    guard.run([&] { settle(fans, guide, goal, cosine); });
     constexpr int kTopologyRounds = 4;
     for (int round = 0; round < kTopologyRounds; ++round) {
-        bool changed = collapse_edges(fans, guide, kSharp);
-        settle(fans, guide, goal, cosine);
-        if (round % 2 == 0) changed |= split_edges(fans, guide, kSharp);
+        bool changed = false;
+        guard.run([&] {
+            changed = collapse_edges(fans, guide, kSharp);
+            settle(fans, guide, goal, cosine);
+        });
+        if (round % 2 == 0)
+            guard.run([&] {
+                changed |= split_edges(fans, guide, kSharp);
+                settle(fans, guide, goal, cosine);
+            });
         if (!changed) break;
-        settle(fans, guide, goal, cosine);
     }
 }
 

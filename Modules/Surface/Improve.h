@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Surface/Guard.h"
 #include "Surface/Remesh.h"
 
 namespace myotet::surface {
@@ -17,6 +18,7 @@ struct AngleGoal {
 /// where this does not suffice takes points away or adds some. Stops when the
 /// goal is met or a round changes nothing. Three angles of at least a leave
 /// none above 180 - 2 a, so one goal serves both ends.
-void improve_angles(Fans& fans, const Guide& guide, const AngleGoal& goal = {});
+void improve_angles(Fans& fans, const Guide& guide, CrossingGuard& guard,
+                    const AngleGoal& goal = {});
 
 }  // namespace myotet::surface

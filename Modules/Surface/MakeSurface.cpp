@@ -53,8 +53,9 @@ Result make_surface(const TriMesh& start, const Guide& guide, const Options& opt
                         .curvature_factor = options.curvature_factor};
     Fans fans = make_fans(start);
     std::ranges::fill(fans.sizes, options.edge_length);
-    place_all(fans, guide);
-    remesh(fans, guide, sizing, kRounds);
+    CrossingGuard guard(fans);
+    guard.run([&] { place_all(fans, guide); });
+    remesh(fans, guide, guard, sizing, kRounds);
     progress.check();
 
     Result result;
@@ -62,11 +63,11 @@ Result make_surface(const TriMesh& start, const Guide& guide, const Options& opt
     if (result.cut == Cut::everything) return result;
     if (result.cut == Cut::some) {
         keep_largest_pieces(fans, options.pieces);
-        drive_rim(fans, guide);
-        remesh(fans, guide, sizing, kRimRounds);
+        guard.run([&] { drive_rim(fans, guide); });
+        remesh(fans, guide, guard, sizing, kRimRounds);
         progress.check();
     }
-    improve_angles(fans, guide);
+    improve_angles(fans, guide, guard);
     result.mesh = to_mesh(fans);
     result.quality = measure(result.mesh, guide);
     return result;

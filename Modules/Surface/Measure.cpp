@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "Surface/Crossings.h"
+
 namespace myotet::surface {
 namespace {
 
@@ -76,9 +78,9 @@ void measure_triangles(const TriMesh& mesh, const Field& phi, Quality& q) {
             q.smallest_angle_deg = std::min(q.smallest_angle_deg, angle);
             q.largest_angle_deg = std::max(q.largest_angle_deg, angle);
         }
-        const Vec3 outward = phi(a).gradient.normalized() + phi(b).gradient.normalized() +
-                             phi(c).gradient.normalized();
-        q.triangles_turned_over += !(n.dot(outward) > 0);
+        const auto against = [&](const Vec3& p) { return !(n.dot(phi(p).gradient) > 0); };
+        q.triangles_turned_over +=
+            against((a + b + c) / 3) && against(a) && against(b) && against(c);
     }
 }
 
@@ -201,6 +203,7 @@ Quality measure(const TriMesh& mesh, const Guide& guide) {
         pieces.join(t[0], t[2]);
     }
     q.pieces = pieces.count(std::vector<char>(mesh.points.size(), 1));
+    q.crossing_triangles = static_cast<std::int64_t>(crossings(mesh.points, mesh.triangles).size());
     measure_boundary(mesh, guide, edges, q);
     measure_distance(mesh, guide.phi, q);
     return q;
@@ -214,6 +217,7 @@ std::vector<std::string> broken_promises(const Quality& q) {
     promise(q.bad_edges, "edges are not manifold");
     promise(q.bad_points, "points are not manifold");
     promise(q.triangles_turned_over, "triangles are turned over");
+    promise(q.crossing_triangles, "pairs of triangles cross");
     return sentences;
 }
 

@@ -24,7 +24,10 @@ struct Quality {
     std::int64_t bad_edges = 0;   ///< with more than two triangles, or two that disagree on a side
     std::int64_t bad_points = 0;  ///< whose triangles are not one fan
     std::int64_t inner_edges_joining_boundary_points = 0;
-    std::int64_t triangles_turned_over = 0;  ///< that face against the gradient of phi
+    /// That face against the gradient of phi at all three corners and the centre: at
+    /// a sharp edge, where it differs from side to side, one of them is no fault.
+    std::int64_t triangles_turned_over = 0;
+    std::int64_t crossing_triangles = 0;  ///< pairs of triangles that cross
 
     double points_off = 0;     ///< largest |phi| at a point, mm
     double mean_distance = 0;  ///< of |phi| at points, edge midpoints and triangle centres, mm

@@ -24,18 +24,6 @@ double length(const Fans& fans, std::int32_t a, std::int32_t b) {
     return (fans.points[a] - fans.points[b]).norm();
 }
 
-/// Both halves are shorter than the edge, wherever the level sets are, so that
-/// splitting ends.
-void split_in_middle(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t b) {
-    const Vec3 middle = 0.5 * (fans.points[a] + fans.points[b]);
-    const std::int32_t m = split(fans, a, b, edge_star(fans, a, b), middle);
-    place(fans, guide, m, middle);
-    constexpr double kShorter = 0.9;
-    if (std::max(length(fans, a, m), length(fans, m, b)) < kShorter * length(fans, a, b)) return;
-    fans.points[m] = middle;
-    fans.normals[m] = guide.phi(middle).gradient.normalized();
-}
-
 void split_long_edges(Fans& fans, const Guide& guide) {
     // Triangles made on the way wait for the next round: about two points on
     // either side of a thin sheet a single pass could go on for ever.
@@ -48,19 +36,12 @@ void split_long_edges(Fans& fans, const Guide& guide) {
         }
 }
 
-/// Whether all triangles that a leaves to b are right with b at `at`.
-bool collapse_keeps_facing(const Fans& fans, std::int32_t a, std::int32_t b, const EdgeStar& star,
-                           const Vec3& at, const Vec3& normal) {
+/// Whether no edge that a leaves to b at `at` would be too long.
+bool collapse_keeps_lengths(const Fans& fans, std::int32_t a, std::int32_t b, const Vec3& at) {
     for (const std::int32_t from : {a, b})
-        for (const std::int32_t t : fans.around[from]) {
-            if (t == star.triangle[0] || t == star.triangle[1]) continue;
-            const Triangle& f = fans.triangles[t];
-            if (!faces_outward(fans, f, from, at, normal)) return false;
-            for (const std::int32_t v : f)
-                if (v != from &&
-                    (fans.points[v] - at).norm() > kTooLong * 0.5 * (fans.sizes[v] + fans.sizes[b]))
-                    return false;
-        }
+        for (const std::int32_t n : neighbours(fans, from))
+            if (n != a && n != b && (fans.points[n] - at).norm() > kTooLong * wished(fans, n, b))
+                return false;
     return true;
 }
 
@@ -68,16 +49,19 @@ bool collapse_edge(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t 
     if (fans.rim[a] && !fans.rim[b]) std::swap(a, b);
     const EdgeStar star = edge_star(fans, a, b);
     if (!may_collapse(fans, a, b, star)) return false;
-    const Vec3 place_before = fans.points[b], normal_before = fans.normals[b];
-    if (fans.rim[a] == fans.rim[b]) place(fans, guide, b, 0.5 * (fans.points[a] + fans.points[b]));
-    const Vec3 at = fans.points[b], normal = fans.normals[b];
-    if (collapse_keeps_facing(fans, a, b, star, at, normal)) {
-        collapse(fans, a, b, star);
-        return true;
+    if (closes_ring(fans, a, b, star)) {
+        fans.caps[a] = std::min(fans.caps[a], length(fans, a, b));
+        fans.caps[b] = std::min(fans.caps[b], length(fans, a, b));
+        return false;
     }
-    fans.points[b] = place_before;
-    fans.normals[b] = normal_before;
-    return false;
+    const std::optional<Corner> at = meeting_point(fans, guide, a, b);
+    if (!at || !collapse_keeps_lengths(fans, a, b, at->point) ||
+        !collapse_faces_outward(fans, guide.phi, a, b, *at))
+        return false;
+    collapse(fans, a, b, star);
+    fans.points[b] = at->point;
+    fans.normals[b] = at->normal;
+    return true;
 }
 
 void collapse_short_edges(Fans& fans, const Guide& guide) {
@@ -130,36 +114,25 @@ Vec3 middle_of_star(const Fans& fans, std::int32_t v) {
     return weights > 0 ? Vec3(sum / weights) : fans.points[v];
 }
 
-bool star_faces_outward(const Fans& fans, std::int32_t v, const Vec3& at, const Vec3& normal) {
-    return std::ranges::all_of(fans.around[v], [&](std::int32_t t) {
-        return faces_outward(fans, fans.triangles[t], v, at, normal);
-    });
+/// What the surface at a point wants.
+double size_at(const Field& phi, const Vec3& point, const Sizing& sizing) {
+    const double k = largest_curvature(phi, point, sizing.smallest_length);
+    if (!(k > 0)) return sizing.edge_length;
+    const double bent = std::min(sizing.curvature_factor / k, sizing.edge_length);
+    if (bent <= sizing.smallest_length) return sizing.smallest_length;
+    // L^2 k / 8 <= thickness / 4
+    const double enough = 0.5 * bent * bent * k;
+    const double thin = std::sqrt(thickness(phi, point, enough) / enough);
+    return std::max(bent * thin, sizing.smallest_length);
 }
 
 }  // namespace
-
-void place(Fans& fans, const Guide& guide, std::int32_t v, const Vec3& at) {
-    const double reach = fans.sizes[v];
-    fans.points[v] = fans.rim[v] && guide.trim ? project(guide.phi, guide.trim, at, reach)
-                                               : project(guide.phi, at, reach);
-    fans.normals[v] = guide.phi(fans.points[v]).gradient.normalized();
-}
-
-void place_all(Fans& fans, const Guide& guide) {
-    parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t v = first; v < last; ++v)
-            if (!fans.around[v].empty())
-                place(fans, guide, static_cast<std::int32_t>(v), fans.points[v]);
-    });
-}
 
 void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing) {
     parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v) {
             if (fans.around[v].empty()) continue;
-            const double k = largest_curvature(phi, fans.points[v], sizing.smallest_length);
-            const double bent = k > 0 ? sizing.curvature_factor / k : sizing.edge_length;
-            fans.sizes[v] = std::clamp(bent, sizing.smallest_length, sizing.edge_length);
+            fans.sizes[v] = std::min(size_at(phi, fans.points[v], sizing), fans.caps[v]);
         }
     });
     for (int sweep = 0; sweep < kGrowthSweeps; ++sweep)
@@ -170,50 +143,43 @@ void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing) {
                     fans.sizes[n] + kGrowth * length(fans, static_cast<std::int32_t>(v), n));
 }
 
-void even_valences(Fans& fans) {
+void even_valences(Fans& fans, const Guide& guide) {
     for (std::size_t t = 0; t < fans.triangles.size(); ++t)
         for (int i = 0; i < 3 && fans.alive(t); ++i) {
             const std::int32_t a = fans.triangles[t][i], b = fans.triangles[t][(i + 1) % 3];
             const EdgeStar star = edge_star(fans, a, b);
-            if (star.inner() && evens_valences(fans, a, b, star) && may_flip(fans, a, b, star))
+            if (star.inner() && evens_valences(fans, a, b, star) && may_flip(fans, a, b, star) &&
+                flip_faces_outward(fans, guide.phi, a, b, star))
                 flip(fans, a, b, star);
         }
 }
 
 void smooth(Fans& fans, const Guide& guide) {
-    // All steps are found from the same positions, then taken one by one where
-    // no triangle turns over: the same on any number of threads.
-    Fans moved;
-    moved.points = fans.points;
-    moved.normals = fans.normals;
-    moved.sizes = fans.sizes;
-    moved.rim = fans.rim;
+    // All steps are found from the same positions, then taken one by one: the
+    // same on any number of threads.
+    std::vector<std::optional<Corner>> wanted(fans.points.size());
     parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             if (fans.around[i].empty()) continue;
             const auto v = static_cast<std::int32_t>(i);
             const Vec3 step = middle_of_star(fans, v) - fans.points[v];
             const Vec3& n = fans.normals[v];
-            place(moved, guide, v, fans.points[v] + (step - n.dot(step) * n));
+            wanted[i] = landing(fans, guide, v, fans.points[v] + (step - n.dot(step) * n));
         }
     });
-    for (std::size_t i = 0; i < fans.points.size(); ++i) {
-        const auto v = static_cast<std::int32_t>(i);
-        if (fans.around[v].empty() ||
-            !star_faces_outward(fans, v, moved.points[v], moved.normals[v]))
-            continue;
-        fans.points[v] = moved.points[v];
-        fans.normals[v] = moved.normals[v];
-    }
+    move_all(fans, guide.phi, wanted);
 }
 
-void remesh(Fans& fans, const Guide& guide, const Sizing& sizing, int rounds) {
+void remesh(Fans& fans, const Guide& guide, CrossingGuard& guard, const Sizing& sizing,
+            int rounds) {
     for (int round = 0; round < rounds; ++round) {
         find_sizes(fans, guide.phi, sizing);
-        split_long_edges(fans, guide);
-        collapse_short_edges(fans, guide);
-        even_valences(fans);
-        for (int step = 0; step < kSmoothSteps; ++step) smooth(fans, guide);
+        guard.run([&] {
+            split_long_edges(fans, guide);
+            collapse_short_edges(fans, guide);
+            even_valences(fans, guide);
+            for (int step = 0; step < kSmoothSteps; ++step) smooth(fans, guide);
+        });
     }
 }
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Surface/Fans.h"
-#include "Surface/Field.h"
+#include "Surface/Change.h"
+#include "Surface/Guard.h"
 
 namespace myotet::surface {
-
-/// The level sets that hold a mesh.
-struct Guide {
-    Field phi;   ///< every point stays on its zero set
-    Field trim;  ///< points of the rim stay on its zero set too; empty: none
-};
 
 /// How long edges shall be.
 struct Sizing {
@@ -21,14 +15,10 @@ struct Sizing {
     double curvature_factor = 1;
 };
 
-/// Puts point v to where its level sets are zero next to `at`.
-void place(Fans& fans, const Guide& guide, std::int32_t v, const Vec3& at);
-
-/// Places all points, on all threads.
-void place_all(Fans& fans, const Guide& guide);
-
-/// Wished edge lengths at all points, growing by at most a quarter of the way
-/// from one to the next.
+/// Wished edge lengths at all points: by curvature, and so that a chord leaves
+/// its arc by no more than a quarter of the solid's thickness there or of the
+/// gap beside it, lest the two sides cross; growing by at most a quarter of the
+/// way from one point to the next.
 void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing);
 
 /// Isotropic remeshing towards the wished lengths (Botsch, Kobbelt 2004):
@@ -37,12 +27,12 @@ void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing);
 /// along the surface to the middle of their triangles, on the rim along it.
 /// Every point is placed on its level sets after each move. The topology does
 /// not change.
-void remesh(Fans& fans, const Guide& guide, const Sizing& sizing, int rounds);
+void remesh(Fans& fans, const Guide& guide, CrossingGuard& guard, const Sizing& sizing, int rounds);
 
 /// One step of moving all points along the surface.
 void smooth(Fans& fans, const Guide& guide);
 
 /// One pass of flips that even out the number of edges at the points.
-void even_valences(Fans& fans);
+void even_valences(Fans& fans, const Guide& guide);
 
 }  // namespace myotet::surface

@@ -140,9 +140,9 @@ Vec3 way_to_trim(const Fans& fans, const FieldSample& psi, std::int32_t v) {
 
 /// One step of all points; returns how far the rim is from trim = 0, in edges.
 double drive_once(Fans& fans, const Guide& guide) {
-    std::vector<Vec3> moved = fans.points, normals = fans.normals;
+    std::vector<std::optional<Corner>> wanted(fans.points.size());
     std::vector<double> off(fans.points.size(), 0);
-    parallel_for(0, moved.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(0, wanted.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const auto v = static_cast<std::int32_t>(i);
             if (fans.around[v].empty()) continue;
@@ -155,12 +155,10 @@ double drive_once(Fans& fans, const Guide& guide) {
                 const Vec3 across = psi.gradient.normalized();
                 step += way_to_trim(fans, psi, v) - across.dot(step) * across;
             }
-            moved[v] = project(guide.phi, fans.points[v] + step, fans.sizes[v]);
-            normals[v] = guide.phi(moved[v]).gradient.normalized();
+            wanted[i] = landing({.phi = guide.phi}, fans.points[v] + step, fans.sizes[v], false);
         }
     });
-    fans.points = std::move(moved);
-    fans.normals = std::move(normals);
+    move_all(fans, guide.phi, wanted);
     return *std::ranges::max_element(off);
 }
 
@@ -212,7 +210,7 @@ void keep_largest_pieces(Fans& fans, int count) {
 void drive_rim(Fans& fans, const Guide& guide) {
     for (int step = 0; step < kDriveSteps; ++step) {
         if (drive_once(fans, guide) < kArrived) break;
-        even_valences(fans);
+        even_valences(fans, guide);
     }
     place_all(fans, guide);
 }
