@@ -26,6 +26,8 @@ using surface::Cut;
 // Samples along a mesh's edge for its level set, and along an edge of the
 // result for a trimming surface's.
 constexpr double kSamplesAlongEdge = 3;
+// The smallest edge, unless said, in edges and in samples.
+constexpr double kFinestPart = 0.25, kFinestSamples = 0.5;
 
 /// All that the surfaces are made from, whatever the input was.
 struct Stock {
@@ -78,7 +80,7 @@ Stock stock_of_mesh(const SurfaceJobOptions& options, ProgressSink& progress) {
     }
     stock.scan.input = options.scan.input;
     stock.scan.sha256 = sha256_of_file(options.scan.input);
-    if (!options.trim.empty()) stock.trim = read_trim(options.trim, stock.scan);
+    if (!options.trim.empty()) stock.trim = read_trim(options.trim, {});
     return stock;
 }
 
@@ -102,15 +104,22 @@ Stock stock_of_scan(const SurfaceJobOptions& options, ProgressSink& progress) {
         choices.spacing = level_set_spacing(sizes, stock.scan);
     // A tissue that trims needs a level set, but is no result unless asked for.
     const std::vector<Tissue> asked = asked_tissues(stock.scan);
-    if (!options.trim.empty()) stock.trim = read_trim(options.trim, stock.scan);
+    // A recipe may make the tissue: then it is known only afterwards.
+    std::span<const Tissue> named;
+    if (!stock.scan.surface) named = stock.scan.tissues;
+    const bool later = !choices.repair.empty() && !tissue_named(options.trim, named);
+    if (!options.trim.empty() && !later) stock.trim = read_trim(options.trim, named);
     if (stock.trim && stock.trim->tissue)
         for (Tissue& tissue : stock.scan.tissues)
             tissue.asked |= tissue.layer == stock.trim->tissue->layer &&
                             tissue.label == stock.trim->tissue->label;
     stock.sets = make_level_sets(stock.scan, choices, progress);
+    if (!options.trim.empty() && later) stock.trim = read_trim(options.trim, stock.sets.tissues);
     std::erase_if(stock.sets.tissues, [&](const Tissue& t) {
         const auto same = [&](const Tissue& a) { return a.layer == t.layer && a.label == t.label; };
-        return std::ranges::any_of(stock.scan.tissues, same) && std::ranges::none_of(asked, same);
+        const bool trims = stock.trim && stock.trim->tissue && same(*stock.trim->tissue);
+        return std::ranges::none_of(asked, same) &&
+               (trims || std::ranges::any_of(stock.scan.tissues, same));
     });
     extract_starts(stock);
     return stock;
@@ -174,8 +183,13 @@ Made make_tissue(const Stock& stock, const Tissue& tissue, const surface::Field&
 
 std::vector<Made> make_tissues(const Stock& stock, const SurfaceJobOptions& asked,
                                ProgressSink& progress) {
+    const double finest = std::min(
+        stock.edge_length,
+        std::max(kFinestPart * stock.edge_length, kFinestSamples * stock.sets.sets.spacing));
     const surface::Options options{.edge_length = stock.edge_length,
-                                   .smallest_edge_length = asked.smallest_edge_length,
+                                   .smallest_edge_length = asked.smallest_edge_length > 0
+                                                               ? asked.smallest_edge_length
+                                                               : finest,
                                    .pieces = asked.pieces};
     options.validate();
     surface::Field trim;
@@ -209,6 +223,18 @@ void require_a_cut(const std::vector<Made>& made, const SurfaceJobOptions& optio
                          "mm): move it or leave it out");
 }
 
+void write_surface(const TriMesh& mesh, const Tissue& tissue, const std::string& format,
+                   const std::filesystem::path& path) {
+    if (format == "stl") return meshfiles::write_stl(mesh, path);
+    if (format == "vtk") return meshfiles::write_vtk(mesh, path);
+    if (format == "vtp") return meshfiles::write_vtp(mesh, {{tissue.label, tissue.name}}, path);
+    meshfiles::NamedMesh named;
+    named.mesh.points = mesh.points;
+    named.names = {{tissue.label, tissue.name}};
+    named.faces = {{.name = tissue.name, .tag = tissue.label, .triangles = mesh.triangles}};
+    meshfiles::write_mesh(named, path);
+}
+
 void write_tissue(Made& made, const Stock& stock, const std::string& format, OutputFolder& out) {
     SurfaceTissue& report = made.report;
     if (made.mesh.triangles.empty() || !report.broken_promises.empty()) return;
@@ -216,10 +242,7 @@ void write_tissue(Made& made, const Stock& stock, const std::string& format, Out
     const Tissue& tissue = report.tissue;
     const std::string file = file_stem(tissue.layer, tissue.label, tissue.name) + "." + format;
     out.write(file, [&](const std::filesystem::path& path) {
-        if (format == "vtp")
-            meshfiles::write_vtp(made.mesh, {{tissue.label, tissue.name}}, path);
-        else
-            meshfiles::write_stl(made.mesh, path);
+        write_surface(made.mesh, tissue, format, path);
     });
     report.files = {file};
 }

@@ -19,14 +19,16 @@ struct SurfaceJobOptions {
     ScanOptions scan;              ///< its input may be a mesh (.vtu) too
     std::filesystem::path output;  ///< folder
     LevelSetChoices level_sets;
-    double edge_length = 0;           ///< mm; 0: as `mesh` chooses it; of a mesh: its own
-    double smallest_edge_length = 0;  ///< mm; 0: a quarter of it
+    double edge_length = 0;  ///< mm; 0: as `mesh` chooses it; of a mesh: its own
+    /// mm; 0: a quarter of it, but at least half the level sets' spacing, below
+    /// which they hold no shape.
+    double smallest_edge_length = 0;
     /// "x,y,z,nx,ny,nz": the half-space behind a plane; a surface file; or a tissue
-    /// of the scan by name or value. Empty: none.
+    /// of the scan, or that the recipe makes, by name or value. Empty: none.
     std::string trim;
     double trim_offset = 0;      ///< the trimming solid is grown by this, mm
     int pieces = 0;              ///< of each connected part of a tissue, the largest; 0: all
-    std::string format = "stl";  ///< or vtp
+    std::string format = "stl";  ///< or ply, obj, vtp, vtk
     int threads = 0;             ///< 0: as many as the process may use
 };
 

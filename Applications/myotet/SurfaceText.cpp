@@ -31,6 +31,8 @@ Json quality_json(const surface::Quality& q) {
             {"boundary_length_mm", q.boundary_length},
             {"boundary_vertices", q.boundary_points},
             {"boundary_off_in_edges", q.boundary_off_in_edges},
+            {"crossing_triangle_pairs", q.crossing_triangles},
+            {"triangles_turned_over", q.triangles_turned_over},
             {"manifold", q.bad_edges + q.bad_points == 0},
             {"interior_edges_joining_boundary_nodes", q.inner_edges_joining_boundary_points},
             {"vertex_distance_max_mm", q.points_off},

@@ -29,14 +29,6 @@ std::optional<std::array<double, 6>> six_numbers(const std::string& text) {
     return numbers;
 }
 
-std::optional<Tissue> tissue_named(const std::string& text, const Scan& scan) {
-    if (scan.layers.empty()) return std::nullopt;
-    const auto it = std::ranges::find_if(scan.tissues, [&](const Tissue& t) {
-        return t.name == text || std::to_string(t.label) == text;
-    });
-    return it == scan.tissues.end() ? std::nullopt : std::optional(*it);
-}
-
 Field surface_field(const std::filesystem::path& file, const Frame& frame, double spacing,
                     ProgressSink& progress) {
     std::shared_ptr<const levelset::LevelSet> phi;
@@ -72,7 +64,14 @@ Field field_of(std::vector<const levelset::LevelSet*> phis) {
     };
 }
 
-TrimSolid read_trim(const std::string& text, const Scan& scan) {
+std::optional<Tissue> tissue_named(const std::string& text, std::span<const Tissue> tissues) {
+    const auto it = std::ranges::find_if(tissues, [&](const Tissue& t) {
+        return t.name == text || std::to_string(t.label) == text;
+    });
+    return it == tissues.end() ? std::nullopt : std::optional(*it);
+}
+
+TrimSolid read_trim(const std::string& text, std::span<const Tissue> tissues) {
     TrimSolid trim;
     trim.plane = six_numbers(text);
     if (trim.plane) {
@@ -82,7 +81,7 @@ TrimSolid read_trim(const std::string& text, const Scan& scan) {
                              ": the normal, the last three numbers, is zero; give its direction");
         return trim;
     }
-    trim.tissue = tissue_named(text, scan);
+    trim.tissue = tissue_named(text, tissues);
     if (trim.tissue) return trim;
     trim.file = text;
     std::error_code ignored;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "LevelSetStage.h"
@@ -19,12 +20,16 @@ namespace myotet::app {
 /// What `--trim` says.
 struct TrimSolid {
     std::optional<std::array<double, 6>> plane;  ///< x, y, z, nx, ny, nz: LPS, mm
-    std::optional<Tissue> tissue;                ///< of the scan
+    std::optional<Tissue> tissue;                ///< of the scan or of its recipe
     std::filesystem::path file;                  ///< else: a surface
 };
 
+/// The tissue that a text names, or whose label value it is.
+[[nodiscard]] std::optional<Tissue> tissue_named(const std::string& text,
+                                                 std::span<const Tissue> tissues);
+
 /// Throws UsageError when the text is none of them.
-[[nodiscard]] TrimSolid read_trim(const std::string& text, const Scan& scan);
+[[nodiscard]] TrimSolid read_trim(const std::string& text, std::span<const Tissue> tissues);
 
 /// The field in the local coordinates of `sets`; level sets that it needs are
 /// made with `spacing` and kept by it. `sets` must outlive it.

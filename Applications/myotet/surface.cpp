@@ -25,13 +25,14 @@ void add_shape_options(CLI::App& command, SurfaceJobOptions& job) {
     command
         .add_option("--smallest-edge-length", job.smallest_edge_length,
                     "how short edges may get where the surface bends, mm (default: a quarter of "
-                    "the edge length)")
+                    "the edge length, but half the level sets' spacing at least)")
         ->check(kPositive)
         ->type_name("MM");
     command
         .add_option("--trim", job.trim,
                     "discard what lies inside this solid: a closed surface (file), a tissue of "
-                    "the scan (name or value), or x,y,z,nx,ny,nz, all behind the plane through "
+                    "the scan or of --repair's recipe (name or value), or x,y,z,nx,ny,nz, all "
+                    "behind the plane through "
                     "(x,y,z) whose normal (nx,ny,nz) points to what is kept")
         ->type_name("SOLID");
     command.add_option("--trim-offset", job.trim_offset, "grow the trimming solid by this, mm")
@@ -57,7 +58,7 @@ void add_options(CLI::App& command, Arguments& a) {
         ->check(kPositive)
         ->type_name("MM");
     command.add_option("--format", a.job.format, "format of the surfaces")
-        ->check(CLI::IsMember({"stl", "vtp"}))
+        ->check(CLI::IsMember({"stl", "ply", "obj", "vtp", "vtk"}))
         ->capture_default_str();
     command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
         ->check(CLI::Range(1, 4096))

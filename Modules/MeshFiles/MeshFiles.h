@@ -43,6 +43,10 @@ void write_vtp(const TriMesh& surface, const std::map<std::int32_t, std::string>
 /// become 32-bit numbers. Throws IoError.
 void write_stl(const TriMesh& surface, const std::filesystem::path& file);
 
+/// Writes binary legacy .vtk, polydata, whose title says SPACE=LPS and UNIT=mm;
+/// coordinates are 64-bit numbers. Throws IoError.
+void write_vtk(const TriMesh& surface, const std::filesystem::path& file);
+
 /// What a format can hold.
 enum class Holds { tetrahedra, surface };
 struct Format {

@@ -60,6 +60,21 @@ Vec3 zero_between(const Field& phi, Vec3 a, double at_a, Vec3 b, double at_b, do
     return middle;
 }
 
+/// Onto one and the other by turns, for kinks about which Newton's method goes to
+/// and fro: where the surfaces cross at an angle a the error shrinks by cos^2 a.
+std::optional<Vec3> in_turn(const Field& phi, const Field& psi, const Vec3& from, double reach) {
+    std::optional<Vec3> at = from;
+    for (int i = 0; i < kSteps && at; ++i) {
+        at = project(psi, *at, reach);
+        if (at) at = project(phi, *at, reach);
+        if (at && std::abs(psi(*at).value) <= kClose * reach) break;
+    }
+    if (!at || !(std::abs(psi(*at).value) <= kClose * reach) ||
+        !((*at - from).norm() <= kFarthest * reach))
+        return std::nullopt;
+    return at;
+}
+
 Vec3 unit_normal(const Field& phi, const Vec3& at) { return phi(at).gradient.normalized(); }
 
 }  // namespace
@@ -97,18 +112,13 @@ std::optional<Vec3> project(const Field& phi, const Vec3& from, double reach) {
 
 std::optional<Vec3> project(const Field& phi, const Field& psi, const Vec3& from, double reach) {
     Vec3 at = from;
-    double stride = 1, error_before = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 2 * kSteps; ++i) {
+    for (int i = 0; i < kSteps; ++i) {
         const FieldSample s = phi(at), t = psi(at);
-        const double error = std::max(std::abs(s.value), std::abs(t.value));
-        if (error <= kClose * reach) return at;
-        // At a kink whole steps may go to and fro for ever.
-        stride = error < 0.75 * error_before ? std::min(1.0, 1.5 * stride) : 0.5 * stride;
-        error_before = error;
-        at += stride * no_longer_than(newton_step(s, t), reach);
+        if (std::max(std::abs(s.value), std::abs(t.value)) <= kClose * reach) return at;
+        at += no_longer_than(newton_step(s, t), reach);
         if (!((at - from).norm() <= kFarthest * reach)) break;
     }
-    return std::nullopt;
+    return in_turn(phi, psi, from, reach);
 }
 
 double largest_curvature(const Field& phi, const Vec3& point, double step) {
