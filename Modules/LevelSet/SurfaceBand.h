@@ -7,8 +7,10 @@
 
 namespace myotet::levelset {
 
-/// Exact signed distances to a closed surface in a band of `half_width`
-/// samples, by OpenVDB's mesh conversion. Throws Interrupted.
+/// Exact signed distances to a closed surface in a band of `half_width` samples, at
+/// least 1. Outside is what can be reached from afar without cutting the surface, which
+/// may be turned inside out or cross itself.
+/// Cost: O(samples of the band x triangles next to their block). Throws Interrupted.
 [[nodiscard]] Band surface_band(const TriMesh& surface, double spacing, double half_width,
                                 ProgressSink& progress);
 
