@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace myotet::meshing {
 namespace {
@@ -289,7 +290,17 @@ Expansion AngleEnergy::expand(const Vec3& x) const {
     return e;
 }
 
-double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+Badness::Badness(const ShapeGoal& goal) {
+    const auto squared_tangent = [](double angle_deg) {
+        const double t = std::tan(0.5 * angle_deg * std::numbers::pi / 180);
+        return t * t;
+    };
+    per_obtuse_ = 1 / squared_tangent(goal.max_dihedral_deg);
+    acute_ = squared_tangent(goal.min_dihedral_deg);
+    per_aspect_ = 1 / (goal.max_aspect_ratio * goal.max_aspect_ratio);
+}
+
+double Badness::operator()(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) const {
     const Vec3 u = b - a, v = c - a, w = d - a;
     const Vec3 n[4] = {(c - b).cross(d - b), w.cross(v), u.cross(w), v.cross(u)};
     const double volume = u.cross(v).dot(w);
@@ -304,12 +315,12 @@ double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         for (int j = i + 1; j < 4; ++j) {
             const double product = length[i] * length[j], inner = n[i].dot(n[j]);
             const double t = (product + inner) / (product - inner);
-            worst = std::max({worst, t / kObtuse, 1 / (t * kAcute)});
+            worst = std::max({worst, t * per_obtuse_, acute_ / t});
         }
     for (const double e : {u.squaredNorm(), v.squaredNorm(), w.squaredNorm(), (c - b).squaredNorm(),
                            (d - b).squaredNorm(), (d - c).squaredNorm()})
         edges8 += power8(e);
-    return std::max(worst, std::pow(edges8 * areas8, 1.0 / 8) / (volume * volume * kAspect));
+    return std::max(worst, std::pow(edges8 * areas8, 1.0 / 8) / (volume * volume) * per_aspect_);
 }
 
 }  // namespace myotet::meshing

@@ -33,9 +33,23 @@ private:
     std::size_t stride_ = 0, count_ = 0;
 };
 
-/// How far the worst of one tetrahedron (oriented as TetMesh's) is from the goal: the
-/// largest of t / t0, t1 / t and a^2 / a0^2; 1 at the goal, infinite unless the
-/// tetrahedron is positive.
-[[nodiscard]] double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// What the elements of a mesh shall keep to.
+struct ShapeGoal {
+    double max_dihedral_deg, min_dihedral_deg, max_aspect_ratio;
+};
+
+/// How far one tetrahedron is from a goal.
+class Badness {
+public:
+    explicit Badness(const ShapeGoal& goal);
+
+    /// The largest of t / t0, t1 / t and a^2 / a0^2 of the tetrahedron (oriented as
+    /// TetMesh's); 1 at the goal, infinite unless it is positive.
+    [[nodiscard]] double operator()(const Vec3& a, const Vec3& b, const Vec3& c,
+                                    const Vec3& d) const;
+
+private:
+    double per_obtuse_, acute_, per_aspect_;  // 1 / t0, t1, 1 / a0^2
+};
 
 }  // namespace myotet::meshing

@@ -35,12 +35,14 @@ constexpr double kCornerWeight = 3.0 / 60, kEdgeWeight = 8.0 / 60, kCentreWeight
 constexpr double kFarOff = 0.07;
 // Tetrahedra whose q exceeds this (aspect ratio about 3) are worked on to the end.
 constexpr double kBad = 3.0;
-// Where the balance between shape and fit is shifted: an aspect ratio, a distance
-// in median edges, and by how much each time.
-constexpr double kTooLong = 4.2, kTooFar = 0.12, kShift = 3;
+// The farthest place that there shall be, in median surface edges. Of its cube, which
+// weighs 15 % as much as an aspect ratio of 4.4, so much already tightens the fit.
+constexpr double kFarthest = 0.14, kFarPower = 3, kFar = 0.63;
 // Badness of tetrahedra that are worked on where the angles decide, and of those whose
 // fit is loosened, by how much each time. Nothing is gained within 5 % of the goal.
 constexpr double kAwake = 0.8, kPoor = 0.95, kLoosen = 0.5;
+// What uniform meshes shall keep to, and graded ones, whose distance is held as well.
+constexpr ShapeGoal kUniformGoal{116, 28, 3.4}, kGradedGoal{134, 22.5, 3.95};
 
 // One stage: `sweeps` sweeps at exponent m (kAngles: AngleEnergy) and fit weight mu.
 constexpr int kAngles = 0;
@@ -103,49 +105,69 @@ public:
             if (shape_energy(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]) > bound)
                 for (const std::int32_t n : t) dirty_[n] = 1;
     }
-    // Shifts the balance where one side has lost: towards the shape at tetrahedra
-    // whose aspect ratio is too large, towards the fit at faces too far away.
-    void rebalance(const TetMesh& mesh, const std::vector<Triangle>& faces) {
-        std::vector<char> too_long(x_.size(), 0), too_far(x_.size(), 0);
-        for (const Tet& t : mesh.tets)
-            if (shape_energy(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]) > kBad &&
-                quality::measure(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]).aspect_ratio > kTooLong)
-                for (const std::int32_t n : t) too_long[n] = 1;
-        const auto is_far = [&](const Vec3& p) {
-            return std::abs(phi_.value(p) - offset_) > kTooFar * surface_scale_;
-        };
-        for (const Triangle& f : faces) {
-            const Vec3 &a = x_[f[0]], &b = x_[f[1]], &c = x_[f[2]];
-            if (is_far((a + b + c) / 3) || is_far(0.5 * (a + b)) || is_far(0.5 * (b + c)) ||
-                is_far(0.5 * (c + a)) || is_far(a) || is_far(b) || is_far(c))
-                for (const std::int32_t n : f) too_far[n] = 1;
-        }
-        for (std::size_t v = 0; v < x_.size(); ++v)
-            if (too_long[v] != too_far[v]) {
-                weight_[v] *= too_far[v] ? kShift : 1 / kShift;
-                dirty_[v] = 1;
-            }
-    }
     // Wakes what is bad and loosens the fit of what is poor; false when nothing is.
     bool loosen_poor(const TetMesh& mesh) {
-        std::vector<char> poor(x_.size(), 0);
+        const std::vector<float> bad = survey_shapes(mesh, kUniformGoal);
         bool any = false;
-        for (const Tet& t : mesh.tets) {
-            const double bad = badness(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]);
-            if (!(bad > kAwake)) continue;
-            for (const std::int32_t n : t) {
-                dirty_[n] = 1;
-                poor[n] |= static_cast<char>(bad > kPoor);
-            }
-            any |= bad > kPoor;
+        for (std::size_t v = 0; v < x_.size(); ++v) {
+            if (!(bad[v] > kPoor)) continue;
+            weight_[v] *= kLoosen;
+            any = true;
         }
-        for (std::size_t v = 0; v < x_.size(); ++v)
-            if (poor[v]) weight_[v] *= kLoosen;
         return any;
+    }
+    // What a mesh whose distance is held still lacks at each node: the badness of the
+    // worst element, and how far off the farthest face is, 1 being at the goal for both.
+    struct Survey {
+        std::vector<float> bad, far;
+        [[nodiscard]] float worst() const {
+            return std::max(*std::ranges::max_element(bad), *std::ranges::max_element(far));
+        }
+    };
+    // The farthest place shall be `farthest` mm away. Wakes the nodes of bad elements.
+    [[nodiscard]] Survey survey(const TetMesh& mesh, const std::vector<Triangle>& faces,
+                                double farthest) {
+        Survey found{survey_shapes(mesh, kGradedGoal), std::vector<float>(x_.size(), 0)};
+        for (const Triangle& f : faces) {
+            const auto off = static_cast<float>(std::pow(distance(f) / farthest, kFarPower));
+            for (const std::int32_t n : f) found.far[n] = std::max(found.far[n], off);
+        }
+        return found;
+    }
+    // Shifts the balance by `factor` towards what lacks most.
+    void ease(const Survey& found, double factor) {
+        for (std::size_t v = 0; v < x_.size(); ++v) {
+            const double bad = found.bad[v] / kPoor, far = found.far[v] / kFar;
+            if (!(std::max(bad, far) > 1)) continue;
+            weight_[v] *= bad > far ? 1 / factor : factor;
+            dirty_[v] = 1;
+        }
     }
     void wake_all() { std::fill(dirty_.begin(), dirty_.end(), 1); }
 
 private:
+    // Farthest of a face's corners, edge midpoints and centre from the surface, mm.
+    [[nodiscard]] double distance(const Triangle& f) const {
+        const Vec3 &a = x_[f[0]], &b = x_[f[1]], &c = x_[f[2]];
+        double farthest = 0;
+        for (const Vec3& p : {Vec3((a + b + c) / 3), Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)),
+                              Vec3(0.5 * (c + a)), a, b, c})
+            farthest = std::max(farthest, std::abs(phi_.value(p) - offset_));
+        return farthest;
+    }
+    // The largest badness around each node; wakes those of bad tetrahedra.
+    [[nodiscard]] std::vector<float> survey_shapes(const TetMesh& mesh, const ShapeGoal& goal) {
+        std::vector<float> bad(x_.size(), 0);
+        const Badness badness(goal);
+        for (const Tet& t : mesh.tets) {
+            const double b = badness(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]);
+            for (const std::int32_t n : t) {
+                bad[n] = std::max(bad[n], static_cast<float>(b));
+                if (b > kAwake) dirty_[n] = 1;
+            }
+        }
+        return bad;
+    }
     // The fit at boundary node v displaced by `step` (mm): mu / h^2 times the
     // quadrature of (phi - c)^2 over its faces; Gauss-Newton where asked.
     double fit(std::int32_t v, const Vec3& at, double mu, Expansion* expansion) const {
@@ -250,11 +272,66 @@ constexpr Stage kDrive[] = {{1, 1, 3},   {1, 1, 10},  {1, 1, 30},  {1, 1, 100},
                             {1, 1, 300}, {1, 1, 1e3}, {1, 1, 3e3}, {3, 2, 1e5}};
 constexpr Stage kShape{8, 4, 1e6};
 constexpr Stage kWorst{2, 8, 2e7};
-constexpr Stage kAngular{3, kAngles, 2e6};
+constexpr Stage kAngular{3, kAngles, 2e6}, kEase{2, kAngles, 2e7};
 constexpr Stage kVolume{2, 2, 1e5};
 constexpr Stage kDraft{2, 4, 1e6};
-constexpr int kWorstRounds = 7, kFairRounds = 3, kAngleRounds = 14;
-constexpr int kVolumeRounds = 3;
+constexpr int kVolumeRounds = 3, kWorstRounds = 2, kAngleRounds = 14, kEaseRounds = 16;
+// Easing shifts the balance in a few bold rounds and then in careful ones; it ends when
+// so many in a row gained nothing.
+constexpr int kBoldRounds = 4, kPatience = 5;
+constexpr double kBold = 2, kCareful = 1.4;
+// Of the volume asked for; within half of it nothing is corrected.
+constexpr double kVolumeError = 0.01;
+
+// The volume that a mesh shall have, and the isovalue that gives it.
+class VolumeGoal {
+public:
+    explicit VolumeGoal(double volume) : volume_(volume) {}
+    [[nodiscard]] bool asked() const { return volume_ > 0; }
+    [[nodiscard]] double offset() const { return offset_; }
+    void reset(double offset) { offset_ = offset; }
+    // Part of the volume that the mesh has too much or too little.
+    [[nodiscard]] double error(const TetMesh& mesh) const {
+        return asked() ? std::abs(volume(mesh) / volume_ - 1) : 0;
+    }
+    void correct(const TetMesh& mesh, Compressor& compressor) {
+        if (!asked()) return;
+        offset_ += (volume_ - volume(mesh)) / boundary_area(mesh);  // dV/dc is the area
+        compressor.wake_boundary();
+    }
+
+private:
+    double volume_, offset_ = 0;
+};
+
+// The few elements that are still poor, against the few places that are still too far;
+// what came nearest to the goal is kept.
+void ease_worst(TetMesh& mesh, Compressor& compressor, VolumeGoal& goal, ProgressSink& progress) {
+    const std::vector<Triangle> faces = boundary_faces(mesh.tets);
+    const double farthest = kFarthest * quality::boundary_edge_lengths(mesh).median;
+    auto found = compressor.survey(mesh, faces, farthest);
+    const auto shortfall = [&] {
+        return std::max(double{found.worst()}, goal.error(mesh) / kVolumeError);
+    };
+    double least = shortfall(), offset = goal.offset();
+    std::vector<Vec3> best = mesh.points;
+    for (int i = 0, since = 0; i < kEaseRounds && since < kPatience && least > 1; ++i) {
+        progress.report("compression", (i + 1) / (kEaseRounds + 1.0));
+        if (goal.error(mesh) > 0.5 * kVolumeError) goal.correct(mesh, compressor);
+        compressor.ease(found, i < kBoldRounds ? kBold : kCareful);
+        compressor.run(kEase, goal.offset(), progress);
+        found = compressor.survey(mesh, faces, farthest);
+        ++since;
+        if (shortfall() < least) {
+            least = shortfall();
+            offset = goal.offset();
+            best = mesh.points;
+            since = 0;
+        }
+    }
+    mesh.points = std::move(best);
+    goal.reset(offset);
+}
 
 }  // namespace
 
@@ -270,36 +347,31 @@ void fit_surface(TetMesh& mesh, const LevelSet& phi, ProgressSink& progress) {
 double polish(TetMesh& mesh, const LevelSet& phi, const PolishOptions& options,
               ProgressSink& progress) {
     Compressor compressor(mesh, phi);
-    const std::vector<Triangle> faces = boundary_faces(mesh.tets);
-    const bool to_volume = options.volume > 0;
-    double offset = 0;
-    const auto correct_volume = [&] {
-        // dV/dc is the area.
-        if (to_volume) offset += (options.volume - volume(mesh)) / boundary_area(mesh);
-    };
-    for (int i = 0; to_volume && i < kVolumeRounds; ++i) {
-        correct_volume();
-        compressor.wake_boundary();
-        compressor.run(kVolume, offset, progress);
+    VolumeGoal goal(options.volume);
+    for (int i = 0; goal.asked() && i < kVolumeRounds; ++i) {
+        goal.correct(mesh, compressor);
+        compressor.run(kVolume, goal.offset(), progress);
     }
     compressor.wake_all();
-    compressor.run(options.draft ? kDraft : kShape, offset, progress);
-    const int rounds = options.draft ? 0 : options.hold_distance ? kWorstRounds : kAngleRounds;
-    for (int i = 0; i < rounds; ++i) {
-        progress.report("compression", (i + 1) / (rounds + 1.0));
-        correct_volume();
-        if (to_volume) compressor.wake_boundary();
-        if (options.hold_distance) {
+    compressor.run(options.draft ? kDraft : kShape, goal.offset(), progress);
+    if (options.draft) return goal.offset();
+    if (options.hold_distance) {
+        for (int i = 0; i < kWorstRounds; ++i) {
+            goal.correct(mesh, compressor);
             compressor.wake_bad(mesh, kBad);
-            if (i >= kFairRounds) compressor.rebalance(mesh, faces);
-            compressor.run(kWorst, offset, progress);
-        } else {
-            const bool poor = compressor.loosen_poor(mesh);
-            compressor.run(kAngular, offset, progress);
-            if (!poor && !to_volume) break;
+            compressor.run(kWorst, goal.offset(), progress);
         }
+        ease_worst(mesh, compressor, goal, progress);
+        return goal.offset();
     }
-    return offset;
+    for (int i = 0; i < kAngleRounds; ++i) {
+        progress.report("compression", (i + 1) / (kAngleRounds + 1.0));
+        goal.correct(mesh, compressor);
+        const bool poor = compressor.loosen_poor(mesh);
+        compressor.run(kAngular, goal.offset(), progress);
+        if (!poor && !goal.asked()) break;
+    }
+    return goal.offset();
 }
 
 }  // namespace myotet::meshing

@@ -19,9 +19,11 @@ namespace myotet::meshing {
 // faces around the node: fitting faces and not only nodes makes the surface straddle phi = c,
 // which keeps the volume; the fourth power holds back the farthest places. mu
 // grows from sweep to sweep, as the paper moves boundary nodes gradually; m
-// grows too, so that the worst elements come to decide. In the last rounds, where the
-// distance is not held, the sum is AngleEnergy's, which knows dihedral angles and aspect
-// ratios themselves, and mu is halved around elements that have not reached its goal.
+// grows too, so that the worst elements come to decide. In the last rounds the sum is
+// AngleEnergy's, which knows dihedral angles and aspect ratios themselves, over the nodes
+// of the few elements near or beyond a goal. There mu is lowered, round by round, and where
+// the distance is held it is raised at the few places that are too far; the round that
+// came nearest to both goals is kept.
 //
 // The mesh must be positive and stays so. Same bytes on any number of threads:
 // nodes are coloured, and the colours swept in order.
@@ -32,9 +34,10 @@ void fit_surface(TetMesh& mesh, const levelset::LevelSet& phi, ProgressSink& pro
 /// What the second part shall reach.
 struct PolishOptions {
     double volume = 0;  ///< of the mesh, mm^3; 0: none asked
-    /// The surface's distance is promised: the worst elements give way to it. Without,
-    /// it gives way to them until all angles lie within 28 and 116 degrees and aspect
-    /// ratios below 3.4, or the rounds end.
+    /// The surface's distance is promised (14 % of the median surface edge), with angles
+    /// within 22.5 and 134 degrees and aspect ratios below 3.95, until all holds or the
+    /// rounds end. Without, it gives way until all angles lie within 28 and 116 degrees
+    /// and aspect ratios below 3.4.
     bool hold_distance = true;
     /// Only the whole mesh is relaxed; nothing is done for the worst elements.
     bool draft = false;

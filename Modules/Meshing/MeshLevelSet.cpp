@@ -16,10 +16,10 @@ namespace {
 
 // What a finished mesh shall not have where refining a few places can help: a
 // surface farther away than this part of the median edge, an aspect ratio.
-constexpr double kFarFault = 0.14, kShapeFault = 4.4;
+constexpr double kFarFault = 0.148, kShapeFault = 4.2;
 // Share of tetrahedra at faults that still counts as a few, and tries to mend them.
 constexpr double kFewFaults = 1e-2;
-constexpr int kFaultRounds = 3;
+constexpr int kFaultRounds = 2;
 // Fitted to the 142 tissues of an arm, a trunk and a knee: how thick the layer of
 // small tetrahedra is, what grading adds, what thin parts multiply.
 constexpr double kShellEdges = 2.0, kGrading = 1.2, kThinFactor = 3.4, kThinPower = 1.8;
@@ -27,17 +27,6 @@ constexpr double kShellEdges = 2.0, kGrading = 1.2, kThinFactor = 3.4, kThinPowe
 void require(bool holds, const char* field, double value, const char* rule) {
     if (!holds)
         throw InputError(std::string(field) + " is " + std::to_string(value) + ", but " + rule);
-}
-
-// What `uniform` and `draft` say, spelled out.
-Options spelled_out(Options options) {
-    if (options.uniform) {
-        options.interior_edge_length = options.smallest_edge_length = options.edge_length;
-        options.curvature_factor = options.thickness_factor = options.distance_factor = 0;
-        options.sizing = {};
-    }
-    if (options.draft) options.distance_rounds = 0;
-    return options;
 }
 
 void record(const Candidate& candidate, Summary& summary) {
@@ -214,6 +203,16 @@ void Options::validate() const {
                 "springs and fem begin from the candidate: name one "
                 "of them, first, or none");
     require(components >= 0, "number of components", components, "it must not be negative");
+}
+
+Options spelled_out(Options options) {
+    if (options.uniform) {
+        options.interior_edge_length = options.smallest_edge_length = options.edge_length;
+        options.curvature_factor = options.thickness_factor = options.distance_factor = 0;
+        options.sizing = {};
+    }
+    if (options.draft) options.distance_rounds = 0;
+    return options;
 }
 
 Result mesh_level_set(const levelset::LevelSet& phi, const Options& asked, ProgressSink& progress) {

@@ -55,6 +55,9 @@ struct Options {
     void validate() const;
 };
 
+/// The same options with what `uniform` and `draft` mean written into the others.
+[[nodiscard]] Options spelled_out(Options options);
+
 /// Where the time went and what was done on the way.
 struct Summary {
     double edge_length = 0;  ///< lattice edge used at the surface, mm

@@ -13,6 +13,8 @@ using namespace myotet::meshing;
 
 namespace {
 
+const Badness kBadness({.max_dihedral_deg = 116, .min_dihedral_deg = 28, .max_aspect_ratio = 3.4});
+
 // Central differences with step 1e-6 of terms to the eighth power: truncation 1e-12
 // times third derivatives, which are some 1e4 times the value; rounding 1e-16 / 1e-6.
 constexpr double kStep = 1e-6, kGradientTolerance = 1e-6;
@@ -39,7 +41,7 @@ double badness_at(double degrees) {
     const double half = degrees * std::numbers::pi / 360;
     const Vec3 a(0, 0, -0.5), b(0, 0, 0.5), c(std::cos(half), -std::sin(half), 0),
         d(std::cos(half), std::sin(half), 0);
-    return badness(a, b, c, d);
+    return kBadness(a, b, c, d);
 }
 
 }  // namespace
@@ -78,8 +80,8 @@ TEST(AngleEnergy, IsInfiniteWhereAVolumeIsNotPositive) {
     const AngleEnergy star = ring(8);
     EXPECT_EQ(star.value({5, 0, 0}), kInfinity);
     EXPECT_EQ(star.expand({5, 0, 0}).value, kInfinity);
-    EXPECT_EQ(badness({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}), kInfinity);
-    EXPECT_EQ(badness({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), kInfinity);
+    EXPECT_EQ(kBadness({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}), kInfinity);
+    EXPECT_EQ(kBadness({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), kInfinity);
 }
 
 TEST(AngleEnergy, BadnessIsOneAtTheGoal) {
@@ -92,10 +94,10 @@ TEST(AngleEnergy, BadnessIsOneAtTheGoal) {
 
 TEST(AngleEnergy, BadnessKnowsNoScaleNorOrderOfNodes) {
     const Vec3 a(0, 0, 0), b(1, 0.1, 0), c(0.2, 0.9, 0.1), d(0.3, 0.2, 0.5);
-    const double bad = badness(a, b, c, d);
+    const double bad = kBadness(a, b, c, d);
     // Sums are taken in another order.
     constexpr double kRounding = 1e-12;
-    EXPECT_NEAR(badness(b, c, a, d), bad, kRounding * bad);
-    EXPECT_NEAR(badness(b, a, d, c), bad, kRounding * bad);
-    EXPECT_NEAR(badness(7 * a, 7 * b, 7 * c, 7 * d), bad, kRounding * bad);
+    EXPECT_NEAR(kBadness(b, c, a, d), bad, kRounding * bad);
+    EXPECT_NEAR(kBadness(b, a, d, c), bad, kRounding * bad);
+    EXPECT_NEAR(kBadness(7 * a, 7 * b, 7 * c, 7 * d), bad, kRounding * bad);
 }
