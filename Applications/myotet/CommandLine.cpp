@@ -17,7 +17,7 @@ void add_read_options(CLI::App& command, segmentation::ReadOptions& options) {
         .add_option("--orientation", options.orientation,
                     "which transform of a NIfTI file places its voxels: sform or qform "
                     "(default: the sform, refused where they disagree)")
-        ->transform(CLI::CheckedTransformer(orientations))
+        ->transform(one_of(orientations))
         ->type_name("FORM");
     command.add_flag("--one-hot", options.one_hot,
                      "a 4D file holds a volume of 0 and 1 for each label");
@@ -66,7 +66,7 @@ void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {
         .add_option("--smoothing", choices.smoothing,
                     "curvature: motion by mean curvature; constrained: the same, but no voxel's "
                     "centre changes sides; none: the voxels' staircase (default: curvature)")
-        ->transform(CLI::CheckedTransformer(kinds))
+        ->transform(one_of(kinds))
         ->type_name("KIND");
     command
         .add_option("--repair", choices.repair,

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "LevelSetStage.h"
@@ -39,5 +40,21 @@ inline const CLI::Validator kNotNegative(
         return "'" + text + "' is not a number of at least 0";
     },
     "");
+
+/// Accepts the names of a table and gives their values; CLI11's own prints the values too.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& table) {
+    return CLI::Validator(
+        [table](std::string& text) -> std::string {
+            if (const auto found = table.find(text); found != table.end()) {
+                text = std::to_string(static_cast<int>(found->second));
+                return {};
+            }
+            std::string names;
+            for (const auto& [name, value] : table) names += (names.empty() ? "" : ", ") + name;
+            return "'" + text + "' is none of " + names;
+        },
+        "");
+}
 
 }  // namespace myotet::app

@@ -84,6 +84,8 @@ RunReport describe_run(const JobOptions& options, const Scan& scan, const meshin
     RunReport report;
     report.run = describe_level_sets(options.scan, options.level_sets, scan, sets);
     report.run.output = options.output.string();
+    report.run.options_text.emplace_back("lattice", sizes.uniform ? "uniform" : "graded");
+    report.run.options_text.emplace_back("quality", sizes.draft ? "draft" : "standard");
     report.run.options_text.emplace_back("compress", to_text(options.compression));
     report.run.options_text.emplace_back("format", joined(options.formats.extensions));
     const std::initializer_list<std::pair<std::string, double>> numbers = {

@@ -20,7 +20,8 @@ constexpr double kTetsOfSurface = 1e5;     // by default
 // ln(tetrahedra) against ln(edge length) is nearly straight, of a slope between
 // -2 (all on the surface) and -3 (all inside).
 constexpr double kSlope = -2.5;
-constexpr double kSamplesPerEdge = 4;  // level set of a surface: samples along an edge
+// Level set of a surface: samples along an edge.
+constexpr double kSamplesPerEdge = 4, kSamplesPerDraftEdge = 3;
 
 // Fitted to runs on a 32-tissue arm, a 49-tissue knee and a 61-tissue trunk, and
 // rounded up; a sample is a square of the level set's spacing on a surface.
@@ -40,13 +41,15 @@ meshing::Options with_edge_length(meshing::Options sizes, double edge_length) {
     sizes.edge_length = edge_length;
     if (sizes.interior_edge_length > 0)
         sizes.interior_edge_length = std::max(sizes.interior_edge_length, edge_length);
-    return sizes;
+    return meshing::spelled_out(sizes);
 }
 
 meshing::Options sizes_at(double edge_length, const SizeOptions& asked) {
     meshing::Options sizes;
     sizes.interior_edge_length = asked.interior_edge_length;
     sizes.curvature_factor = asked.curvature;
+    sizes.uniform = asked.uniform;
+    sizes.draft = asked.draft;
     return with_edge_length(sizes, edge_length);
 }
 
@@ -114,7 +117,8 @@ meshing::Options choose_sizes(const SizeOptions& asked, const Scan& scan) {
 }
 
 double level_set_spacing(const meshing::Options& sizes, const Scan& scan) {
-    return scan.surface ? sizes.edge_length / kSamplesPerEdge : 0;
+    return scan.surface ? sizes.edge_length / (sizes.draft ? kSamplesPerDraftEdge : kSamplesPerEdge)
+                        : 0;
 }
 
 Forecast forecast(const meshing::Options& sizes, const Scan& scan) {
@@ -179,7 +183,7 @@ meshing::Options sizes_for_total(const std::vector<levelset::Region>& regions,
     // A secant search in logarithms, kept within its bracket.
     constexpr int kMostTrials = 12;
     constexpr double kGoodEnough = 0.2 * kTetsTolerance;
-    tets /= kGrowth;
+    if (!first_guess.uniform) tets /= kGrowth;
     const double unset = std::numeric_limits<double>::quiet_NaN();
     double x = std::log(first_guess.edge_length);
     double best_x = x, best_error = std::numeric_limits<double>::infinity();

@@ -31,6 +31,21 @@ void add_options(CLI::App& command, Arguments& a) {
                                     "or: about this many tetrahedra in all, within 10 %");
     edge->check(kPositive)->excludes(tets)->type_name("MM");
     tets->check(kPositive)->type_name("N");
+    using Wish = std::map<std::string, bool>;
+    static const Wish lattices = {{"graded", false}, {"uniform", true}},
+                      qualities = {{"standard", false}, {"draft", true}};
+    command
+        .add_option("--lattice", a.job.sizes.uniform,
+                    "graded: smaller where thin or far from the surface, larger inside; "
+                    "uniform: one edge length, best angles (default: graded)")
+        ->transform(one_of(lattices))
+        ->type_name("KIND");
+    command
+        .add_option("--quality", a.job.sizes.draft,
+                    "standard, or draft: in half the time, promises kept, dihedral angles above "
+                    "about 15 degrees (default: standard)")
+        ->transform(one_of(qualities))
+        ->type_name("KIND");
     command
         .add_option("--interior-edge-length", a.job.sizes.interior_edge_length,
                     "how coarse the inside may grow, mm (default: 4x the edge length)")
@@ -51,7 +66,7 @@ void add_options(CLI::App& command, Arguments& a) {
         .add_option("--compress", a.job.compression,
                     "how the mesh is fitted to the surface: springs, fem, optimization or, in "
                     "order, fem,optimization (default: optimization)")
-        ->transform(CLI::CheckedTransformer(kinds))
+        ->transform(one_of(kinds))
         ->delimiter(',')
         ->type_name("KINDS");
     add_format_options(command, a.job.formats);
@@ -100,8 +115,17 @@ void check_compression(const std::vector<meshing::Compression>& kinds) {
                 "--compress: springs and fem begin from the candidate; name one of them, first");
 }
 
+/// One edge length leaves nothing to grade.
+void check_lattice(const SizeOptions& sizes) {
+    if (sizes.uniform && (sizes.interior_edge_length > 0 || sizes.curvature > 0))
+        throw UsageError(
+            "--lattice uniform has one edge length: leave --interior-edge-length and --curvature "
+            "out");
+}
+
 ExitCode run(const Arguments& a) {
     check_compression(a.job.compression);
+    check_lattice(a.job.sizes);
     const Verbosity verbosity = a.quiet     ? Verbosity::quiet
                                 : a.verbose ? Verbosity::verbose
                                             : Verbosity::normal;

@@ -114,6 +114,28 @@ TEST(MeshJob, ReportHasEveryPromisedKey) {
         EXPECT_TRUE(report["tissues"][0]["seconds"].contains(stage)) << stage;
 }
 
+TEST(MeshJob, UniformLatticesAndDraftsKeepThePromises) {
+    const testing::TemporaryFolder folder;
+    const fs::path scan = write_phantom(folder, "sphere");
+    const auto tissue_with = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{"--edge-length", "4", "--json"};
+        all.insert(all.end(), options.begin(), options.end());
+        const Ran ran = mesh(scan, folder / "out", all);
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        return Json::parse(ran.out);
+    };
+    const Json graded = tissue_with({}), uniform = tissue_with({"--lattice", "uniform"}),
+               draft = tissue_with({"--quality", "draft"});
+    EXPECT_EQ(uniform["options"]["lattice"], "uniform");
+    EXPECT_EQ(draft["options"]["quality"], "draft");
+    const Json &g = graded["tissues"][0], &u = uniform["tissues"][0], &d = draft["tissues"][0];
+    EXPECT_GT(u["tets"], g["tets"]);  // the inside is as fine as the surface
+    EXPECT_GT(u["min_dihedral_deg"], 28);
+    EXPECT_LT(u["max_dihedral_deg"], 116);
+    EXPECT_GE(d["max_aspect_ratio"], g["max_aspect_ratio"]);
+    EXPECT_GT(d["min_dihedral_deg"], 14);
+}
+
 TEST(MeshJob, TableOnStdoutAndLogOnStderr) {
     const testing::TemporaryFolder folder;
     const fs::path scan = write_phantom(folder, "blocks");

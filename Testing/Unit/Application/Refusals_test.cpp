@@ -68,6 +68,9 @@ TEST_F(Refusals, CommandLinesThatMakeNoSense) {
     refused(kUsage, scan(), {"--quiet", "--verbose"});
     refused(kUsage, scan(), {"--compress", "rubber"});
     refused(kUsage, scan(), {"--compress", "optimization,fem"});
+    refused(kUsage, scan(), {"--lattice", "uniform", "--curvature", "1"});
+    EXPECT_THAT(refused(kUsage, scan(), {"--quality", "best"}),
+                HasSubstr("'best' is none of draft, standard"));
     refused(kUsage, scan(), {"--orientation", "both"});
     refused(kUsage, scan(), {"--smoothing", "gaussian"});
     for (const char* number : {"0", "-1", "nan", "inf", "three"}) {
