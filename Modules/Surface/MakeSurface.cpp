@@ -68,6 +68,7 @@ Result make_surface(const TriMesh& start, const Guide& guide, const Options& opt
         progress.check();
     }
     improve_angles(fans, guide, guard);
+    if (result.cut == Cut::some) guard.run([&] { land_rim(fans, guide); });
     result.mesh = to_mesh(fans);
     result.quality = measure(result.mesh, guide);
     return result;

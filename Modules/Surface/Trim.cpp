@@ -138,6 +138,12 @@ Vec3 way_to_trim(const Fans& fans, const FieldSample& psi, std::int32_t v) {
     return way.norm() > most ? Vec3(way * (most / way.norm())) : way;
 }
 
+bool is_landed(const Fans& fans, const Guide& guide, std::int32_t v) {
+    const Vec3& p = fans.points[v];
+    return std::max(std::abs(guide.phi(p).value), std::abs(guide.trim(p).value)) <=
+           kArrived * fans.sizes[v];
+}
+
 /// One step of all points; returns how far the rim is from trim = 0, in edges.
 double drive_once(Fans& fans, const Guide& guide) {
     std::vector<std::optional<Corner>> wanted(fans.points.size());
@@ -213,6 +219,19 @@ void drive_rim(Fans& fans, const Guide& guide) {
         even_valences(fans, guide);
     }
     place_all(fans, guide);
+    land_rim(fans, guide);
+}
+
+void land_rim(Fans& fans, const Guide& guide) {
+    for (std::size_t i = 0; i < fans.points.size(); ++i) {
+        const auto v = static_cast<std::int32_t>(i);
+        if (!fans.rim[i] || fans.around[i].empty() || is_landed(fans, guide, v)) continue;
+        const auto [next, last] = rim_neighbours(fans, v);
+        if (place(fans, guide, v, fans.points[v]) || next < 0 || last < 0) continue;
+        const Vec3 &a = fans.points[next], &b = fans.points[last];
+        for (const double share : {0.5, 0.3, 0.7})
+            if (place(fans, guide, v, a + share * (b - a))) break;
+    }
 }
 
 }  // namespace myotet::surface

@@ -31,4 +31,8 @@ void keep_largest_pieces(Fans& fans, int count);
 /// placed on both.
 void drive_rim(Fans& fans, const Guide& guide);
 
+/// Points of the rim that are not yet on both surfaces are placed there from
+/// where they are, else from between their neighbours.
+void land_rim(Fans& fans, const Guide& guide);
+
 }  // namespace myotet::surface
