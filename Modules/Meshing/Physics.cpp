@@ -27,6 +27,10 @@ constexpr int kPatience = 12;
 // With velocities, a node covers this part of its distance in a step.
 constexpr double kApproach = 0.15;
 constexpr int kMostHalvings = 10;
+// An element is not pressed below this part of its volume in the candidate; what that
+// stops may stop its neighbours, so many times in a step.
+constexpr double kCrushed = 0.15;
+constexpr int kMostPasses = 10;
 // After a step that had to be shortened, the next ones grow again.
 constexpr double kRegrowth = 1.2;
 constexpr dynamics::SolverOptions kSolver{1e-4, 100};
@@ -160,10 +164,14 @@ std::unique_ptr<dynamics::ForceField> make_body(const TetMesh& mesh,
         elasticity::Viscosity{0.5 * viscosity, 0.5 * viscosity});
 }
 
-bool is_positive(const TetMesh& mesh, const NodeVectors& x) {
-    return std::ranges::all_of(mesh.tets, [&](const Tet& t) {
-        return signed_volume(x[t[0]], x[t[1]], x[t[2]], x[t[3]]) > 0;
-    });
+double volume_of(const Tet& t, const NodeVectors& x) {
+    return signed_volume(x[t[0]], x[t[1]], x[t[2]], x[t[3]]);
+}
+
+std::vector<double> volumes_of(const TetMesh& mesh) {
+    std::vector<double> volumes;
+    for (const Tet& t : mesh.tets) volumes.push_back(volume_of(t, mesh.points));
+    return volumes;
 }
 
 class Compressor {
@@ -173,6 +181,7 @@ public:
           options_(options),
           boundary_(mesh),
           body_(make_body(mesh, options), boundary_, phi, options),
+          rest_volumes_(volumes_of(mesh)),
           problem_{fictitious_masses(mesh), &body_,
                    dynamics::AltitudeLimiter(mesh, fictitious_masses(mesh), {})},
           state_{mesh.points, NodeVectors(mesh.points.size(), Vec3::Zero())} {
@@ -223,7 +232,7 @@ private:
             if (!pulling) problem_.constraints = body_.drive(kTimeStep * kCrossing);
             // The damped solver's residual only slows the approach to rest.
             (void)dynamics::newmark_step(problem_, time_step_, kSolver, next);
-            if (is_positive(mesh_, next.x)) {
+            if (hold_back(next)) {
                 state_ = std::move(next);
                 time_step_ = std::min(kTimeStep * kCrossing, kRegrowth * time_step_);
                 return true;
@@ -236,10 +245,33 @@ private:
         return false;
     }
 
+    // Stops, for this step, the nodes of elements that it would crush. False when
+    // that does not end soon.
+    bool hold_back(dynamics::State& next) const {
+        for (int pass = 0; pass < kMostPasses; ++pass) {
+            bool any = false;
+            for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
+                const Tet& tet = mesh_.tets[t];
+                const double volume = volume_of(tet, next.x);
+                if (volume > kCrushed * rest_volumes_[t] ||
+                    (volume > 0 && volume >= volume_of(tet, state_.x)))
+                    continue;
+                for (const std::int32_t n : tet) {
+                    next.x[n] = state_.x[n];
+                    next.v[n].setZero();
+                }
+                any = true;
+            }
+            if (!any) return true;
+        }
+        return false;
+    }
+
     TetMesh& mesh_;
     const PhysicsOptions& options_;
     Boundary boundary_;
     PulledBody body_;
+    std::vector<double> rest_volumes_;
     dynamics::Problem problem_;
     dynamics::State state_;
     double time_step_ = kTimeStep * kCrossing;

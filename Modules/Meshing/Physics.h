@@ -45,7 +45,7 @@ struct PhysicsSummary {
 /// an elastic body whose boundary nodes are first pulled, then moved, along
 /// their mean face normals in proportion to phi; tangential motion is free.
 /// Strain of altitudes is limited to 50 %, its rate to 10 % a step. The mesh
-/// must be positive and stays so.
+/// must be positive and stays so: no element is pressed below 15 % of its volume.
 ///
 /// Time is fictitious: nodes get the masses with which sound crosses every
 /// element in the same time, so that small elements do not shorten the step.

@@ -55,6 +55,23 @@ TEST_P(ByMaterial, BringsTheBoundaryOntoTheSurfaceAndKeepsShapes) {
     EXPECT_LT(shapes.max_aspect_ratio, 6.5);
 }
 
+// A surface so deep inside the candidate that its elements cannot all go there.
+TEST_P(ByMaterial, CrushesNoElement) {
+    SilentProgress quiet;
+    TetMesh mesh = candidate(kTorus, 2);
+    const TetMesh rest = mesh;
+    (void)compress_by_physics(mesh, kTorus, {.material = GetParam(), .isovalue = -3.2}, quiet);
+    EXPECT_LT(volume(mesh), 0.5 * volume(rest));
+    double least = 1;
+    for (const Tet& t : rest.tets) {
+        const auto volume_in = [&](const TetMesh& m) {
+            return signed_volume(m.points[t[0]], m.points[t[1]], m.points[t[2]], m.points[t[3]]);
+        };
+        least = std::min(least, volume_in(mesh) / volume_in(rest));
+    }
+    EXPECT_GE(least, 0.15);  // as Physics.cpp says
+}
+
 TEST_P(ByMaterial, SameBytesOnOneThreadOrMany) {
     const auto points = [](int threads) {
         const ThreadLimit limit(threads);
