@@ -8,6 +8,7 @@
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "Core/Wide.h"
 #include "LevelSet/CutEdges.h"
 
 namespace myotet::levelset {
@@ -25,14 +26,6 @@ constexpr float kLeast = 1e-6F;
 
 // Samples measured at once.
 constexpr int kLanes = 4;
-
-// As in NodeEnergy.cpp: wider registers where the machine has them, same bytes.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define MYOTET_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define MYOTET_WIDE
-#endif
 
 Corners corners_of(const TriMesh& surface, const Band& band, std::size_t triangle) {
     Corners c;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "Core/Wide.h"
+
 namespace myotet::meshing {
 namespace {
 
@@ -21,13 +23,6 @@ constexpr double kRegular = 1.0 / 432.0;
 constexpr std::size_t kLanes = 4;
 using Lane = double __attribute__((vector_size(kLanes * sizeof(double))));
 
-// As in NodeEnergy.cpp: wider registers where the machine has them, same bytes.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define MYOTET_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define MYOTET_WIDE
-#endif
 #define MYOTET_INLINE inline __attribute__((always_inline))
 
 // A table's rows: corners p, q, r, and 1, or 0 for padding.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "Core/Wide.h"
+
 namespace myotet::meshing {
 namespace {
 
@@ -16,15 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 enum Row : std::size_t { kNx, kNy, kNz, kD, kSx, kSy, kSz, kE, kWeight, kRows };
 // Tetrahedra worked on at once; sums are kept by lane, in a fixed order.
 constexpr std::size_t kLanes = 4;
-
-// Compiled for wider registers where the machine has them. AVX2 without fused
-// multiply-add rounds as SSE2 does, so the results are the same bytes.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define MYOTET_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define MYOTET_WIDE
-#endif
 
 }  // namespace
 
