@@ -38,6 +38,9 @@ constexpr double kBad = 3.0;
 // The farthest place that there shall be, in median surface edges. Of its cube, which
 // weighs 15 % as much as an aspect ratio of 4.4, so much already tightens the fit.
 constexpr double kFarthest = 0.14, kFarPower = 3, kFar = 0.63;
+// However far a place is, it counts as no more than this, so that no element is ruined for
+// it; beyond a quarter of an edge it is given up.
+constexpr float kMostFar = 1.0F, kHopeless = 5.7F;
 // Badness of tetrahedra that are worked on where the angles decide, and of those whose
 // fit is loosened, by how much each time. Nothing is gained within 5 % of the goal.
 constexpr double kAwake = 0.8, kPoor = 0.95, kLoosen = 0.5;
@@ -120,8 +123,12 @@ public:
     // worst element, and how far off the farthest face is, 1 being at the goal for both.
     struct Survey {
         std::vector<float> bad, far;
+        // Leaves out places that are not to be reached.
         [[nodiscard]] float worst() const {
-            return std::max(*std::ranges::max_element(bad), *std::ranges::max_element(far));
+            float most = *std::ranges::max_element(bad);
+            for (const float f : far)
+                if (f < kHopeless) most = std::max(most, f);
+            return most;
         }
     };
     // The farthest place shall be `farthest` mm away. Wakes the nodes of bad elements.
@@ -137,7 +144,8 @@ public:
     // Shifts the balance by `factor` towards what lacks most.
     void ease(const Survey& found, double factor) {
         for (std::size_t v = 0; v < x_.size(); ++v) {
-            const double bad = found.bad[v] / kPoor, far = found.far[v] / kFar;
+            const double bad = found.bad[v] / kPoor;
+            const double far = std::min(found.far[v], kMostFar) / kFar;
             if (!(std::max(bad, far) > 1)) continue;
             weight_[v] *= bad > far ? 1 / factor : factor;
             dirty_[v] = 1;
@@ -321,7 +329,7 @@ void ease_worst(TetMesh& mesh, Compressor& compressor, VolumeGoal& goal, Progres
         compressor.ease(found, i < kBoldRounds ? kBold : kCareful);
         compressor.run(kEase, goal.offset(), progress);
         found = compressor.survey(mesh, faces, farthest);
-        ++since;
+        since += i >= kBoldRounds;
         if (shortfall() < least) {
             least = shortfall();
             offset = goal.offset();
