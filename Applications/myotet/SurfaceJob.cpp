@@ -57,19 +57,22 @@ void require_known_options(const ScanOptions& scan, const LevelSetChoices& choic
 /// The scan's part that a report needs: tissues are the labels of the mesh.
 Stock stock_of_mesh(const SurfaceJobOptions& options, ProgressSink& progress) {
     require_known_options(options.scan, options.level_sets);
-    const TetMesh mesh = meshfiles::read_vtu(options.scan.input);
+    const meshfiles::NamedMesh named = meshfiles::read_mesh(options.scan.input);
+    const TetMesh& mesh = named.mesh;
     Stock stock;
     stock.edge_length =
         options.edge_length > 0 ? options.edge_length : quality::boundary_edge_lengths(mesh).median;
     LevelSetChoices choices = options.level_sets;
     if (!(choices.spacing > 0)) choices.spacing = stock.edge_length / kSamplesAlongEdge;
     for (const std::int32_t label : std::set(mesh.labels.begin(), mesh.labels.end())) {
+        const auto name = named.names.find(label);
         Scan one;
         one.input = options.scan.input;
         one.surface = boundary_surface(part_of(mesh, label));
-        one.tissues = {{.label = label,
-                        .name = options.scan.input.stem().string(),
-                        .volume = std::abs(volume(*one.surface))}};
+        one.tissues = {
+            {.label = label,
+             .name = name != named.names.end() ? name->second : options.scan.input.stem().string(),
+             .volume = std::abs(volume(*one.surface))}};
         stock.starts.push_back(*one.surface);
         TissueSets made = make_level_sets(one, choices, progress);
         stock.sets.sets.spacing = made.sets.spacing;

@@ -42,8 +42,8 @@ void add_options(CLI::App& command, Arguments& a) {
         ->type_name("KIND");
     command
         .add_option("--quality", a.job.sizes.draft,
-                    "standard, or draft: in half the time, promises kept, dihedral angles above "
-                    "about 15 degrees (default: standard)")
+                    "standard, or draft: in about half the time, promises kept, the worst "
+                    "elements left as they are (default: standard)")
         ->transform(one_of(qualities))
         ->type_name("KIND");
     command

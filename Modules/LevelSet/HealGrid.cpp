@@ -6,6 +6,7 @@
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "LevelSet/SurfaceBand.h"
 
 namespace myotet::levelset {
 namespace {
@@ -45,23 +46,6 @@ std::vector<std::uint8_t> find_bounding(const WindingTree& tree, double beside) 
         }
     });
     return bounding;
-}
-
-Band lay_table(const TriMesh& surface, double spacing, double half_width) {
-    Box box;
-    for (const Triangle& t : surface.triangles)
-        for (const std::int32_t v : t) box.include(surface.points[v]);
-    const double margin = (std::ceil(half_width) + 2 * kSide) * spacing;
-    Band band;
-    band.spacing = spacing;
-    band.width = static_cast<float>(half_width * spacing);
-    band.origin = box.min - Vec3::Constant(margin);
-    for (int a = 0; a < 3; ++a)
-        band.blocks[a] =
-            static_cast<int>(std::ceil((box.extent()[a] + 2 * margin) / (kSide * spacing)));
-    band.block_of.assign(static_cast<std::size_t>(band.blocks[0]) * band.blocks[1] * band.blocks[2],
-                         Band::kOutside);
-    return band;
 }
 
 Index3 block_at(const Band& band, const Vec3& p) {
@@ -203,7 +187,7 @@ HealGrid make_heal_grid(const TriMesh& surface, double spacing, double half_widt
     HealGrid grid;
     grid.tree = build_winding_tree(surface);
     grid.bounding = find_bounding(grid.tree, kBeside * spacing);
-    grid.band = lay_table(surface, spacing, half_width);
+    grid.band = empty_band(surface, spacing, half_width);
     add_blocks_at_triangles(grid);
     parallel_for(0, grid.band.position.size(), 4, [&](std::size_t first, std::size_t last) {
         progress.check();

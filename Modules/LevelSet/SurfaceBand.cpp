@@ -34,24 +34,6 @@ Corners corners_of(const TriMesh& surface, const Band& band, std::size_t triangl
     return c;
 }
 
-Band lay_table(const TriMesh& surface, double spacing, double half_width) {
-    Box box;
-    for (const Triangle& t : surface.triangles)
-        for (const std::int32_t v : t) box.include(surface.points[v]);
-    // Outside the band, two coarse cells and one block remain on every side.
-    const double margin = (std::ceil(half_width) + 2 * kSide) * spacing;
-    Band band;
-    band.spacing = spacing;
-    band.width = static_cast<float>(half_width * spacing);
-    band.origin = box.min - Vec3::Constant(margin);
-    for (int a = 0; a < 3; ++a)
-        band.blocks[a] =
-            static_cast<int>(std::ceil((box.extent()[a] + 2 * margin) / (kSide * spacing)));
-    band.block_of.assign(static_cast<std::size_t>(band.blocks[0]) * band.blocks[1] * band.blocks[2],
-                         Band::kOutside);
-    return band;
-}
-
 /// A triangle near a block.
 struct Meeting {
     std::size_t slot;
@@ -305,9 +287,27 @@ private:
 
 }  // namespace
 
+Band empty_band(const TriMesh& surface, double spacing, double half_width) {
+    Box box;
+    for (const Triangle& t : surface.triangles)
+        for (const std::int32_t v : t) box.include(surface.points[v]);
+    // Outside the band, two coarse cells and one block remain on every side.
+    const double margin = (std::ceil(half_width) + 2 * kSide) * spacing;
+    Band band;
+    band.spacing = spacing;
+    band.width = static_cast<float>(half_width * spacing);
+    band.origin = box.min - Vec3::Constant(margin);
+    for (int a = 0; a < 3; ++a)
+        band.blocks[a] =
+            static_cast<int>(std::ceil((box.extent()[a] + 2 * margin) / (kSide * spacing)));
+    band.block_of.assign(static_cast<std::size_t>(band.blocks[0]) * band.blocks[1] * band.blocks[2],
+                         Band::kOutside);
+    return band;
+}
+
 Band surface_band(const TriMesh& surface, double spacing, double half_width,
                   ProgressSink& progress) {
-    Band band = lay_table(surface, spacing, half_width);
+    Band band = empty_band(surface, spacing, half_width);
     const std::vector<Meeting> meetings = find_meetings(surface, band, half_width);
     progress.check();
     std::vector<std::size_t> start;

@@ -7,6 +7,10 @@
 
 namespace myotet::levelset {
 
+/// The lattice of a band about a surface: its table, in which all is outside. `half_width`
+/// is in samples.
+[[nodiscard]] Band empty_band(const TriMesh& surface, double spacing, double half_width);
+
 /// Exact signed distances to a closed surface in a band of `half_width` samples, at
 /// least 1. Outside is what can be reached from afar without cutting the surface, which
 /// may be turned inside out or cross itself.

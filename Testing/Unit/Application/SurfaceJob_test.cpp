@@ -125,6 +125,7 @@ TEST_F(SurfaceJob, AMeshIsAnInputToo) {
     const Json t = tissue(folder_ / "tets" / "1_sphere.vtu", {"--trim", "0,0,3,0,0,1"});
     EXPECT_EQ(t["euler_characteristic"], 1);
     EXPECT_EQ(t["boundary_loops"], 1);
+    EXPECT_EQ(t["name"], "sphere") << "as the mesh says, not its file";
 }
 
 TEST_F(SurfaceJob, RefusalsSayWhy) {

@@ -30,6 +30,7 @@ double distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) {
 /// Calls take(position, value) for every stored sample.
 template <class Take>
 void each_sample(const Band& band, Take&& take) {
+    ASSERT_FALSE(band.position.empty());
     constexpr int n = Band::kSide;
     for (std::size_t b = 0; b < band.position.size(); ++b)
         for (int at = 0; at < Band::kSize; ++at) {
