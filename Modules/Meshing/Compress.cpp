@@ -35,8 +35,9 @@ constexpr double kCornerWeight = 3.0 / 60, kEdgeWeight = 8.0 / 60, kCentreWeight
 constexpr double kFarOff = 0.07;
 // Tetrahedra whose q exceeds this (aspect ratio about 3) are worked on to the end.
 constexpr double kBad = 3.0;
-// The farthest place that there shall be, in median surface edges. Of its cube, which
-// weighs 15 % as much as an aspect ratio of 4.4, so much already tightens the fit.
+// The farthest place that there shall be, in median surface edges. Places count with this
+// power of their part of it, so that 15 % of an edge weighs as much as an aspect ratio of
+// 4.4; from kFar on their fit is tightened.
 constexpr double kFarthest = 0.14, kFarPower = 3, kFar = 0.63;
 // However far a place is, it counts as no more than this, so that no element is ruined for
 // it; beyond a quarter of an edge it is given up.

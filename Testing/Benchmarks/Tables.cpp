@@ -75,7 +75,6 @@ void print_against_peers(const fs::path& shared) {
         {"bunny", "bench_surfaces/bunny.off", 0.0152, 0.0262},
         {"dragon", "bench_surfaces/dragon.off", 0.0120, 0.0210},
         {"armadillo", "surfaces_classic/odedstein/armadillo/armadillo.obj", 0.0114, 0.0198},
-        {"human", "surfaces_classic/odedstein/human/human.obj", 0.0091, 0.0155},
         {"sphere", "bench_surfaces/sphere.off", 0.0192, 0.0332}};
     for (const Row& row : kRows) {
         const fs::path file = shared / "data" / row.file;
