@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Walks the includes of Modules/ and Applications/ and fails on an arrow that
+# Walks the includes of Modules/, Simulation/ and Applications/ and fails on an arrow that
 # Rooms.cmake does not allow, on a cycle among the rooms, and on a third-party
 # header outside its owners' .cpp files.
 #
@@ -49,7 +49,7 @@ function(check_file file owner allowed)
       if(header MATCHES "/" AND room IN_LIST myotet_rooms)
         if(NOT room IN_LIST allowed)
           violation("${shown}: ${owner} may not include ${room} (${header})")
-        elseif(NOT EXISTS ${ROOT}/Modules/${header})
+        elseif(NOT EXISTS ${ROOT}/Modules/${header} AND NOT EXISTS ${ROOT}/Simulation/${header})
           violation("${shown}: ${header} does not exist")
         endif()
       elseif(NOT (owner STREQUAL "Applications" AND
@@ -80,13 +80,18 @@ function(check_angle_include shown owner header)
 endfunction()
 
 check_rooms_form_no_cycle()
-file(GLOB folders LIST_DIRECTORIES TRUE ${ROOT}/Modules/*)
+file(GLOB folders LIST_DIRECTORIES TRUE ${ROOT}/Modules/* ${ROOT}/Simulation/*)
 set(files_seen 0)
 foreach(folder IN LISTS folders)
   get_filename_component(room ${folder} NAME)
   file(GLOB_RECURSE files ${folder}/*.h ${folder}/*.cpp)
-  if(files AND NOT room IN_LIST myotet_rooms)
-    violation("Modules/${room}: is not a room of CMake/Rooms.cmake")
+  set(wing Modules)
+  if(room IN_LIST myotet_simulation_rooms)
+    set(wing Simulation)
+  endif()
+  file(RELATIVE_PATH shown ${ROOT} ${folder})
+  if(files AND (NOT room IN_LIST myotet_rooms OR NOT shown STREQUAL "${wing}/${room}"))
+    violation("${shown}: is not a room of CMake/Rooms.cmake")
   endif()
   foreach(file IN LISTS files)
     check_file(${file} ${room} "${room};${${room}_may_include}")

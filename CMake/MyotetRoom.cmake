@@ -20,7 +20,7 @@ function(myotet_room name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(myotet_${name} STATIC ${sources})
   add_library(myotet::${name} ALIAS myotet_${name})
-  target_include_directories(myotet_${name} PUBLIC ${PROJECT_SOURCE_DIR}/Modules)
+  target_include_directories(myotet_${name} PUBLIC ${PROJECT_SOURCE_DIR}/Modules ${PROJECT_SOURCE_DIR}/Simulation)
   list(TRANSFORM ROOM_ROOMS PREPEND myotet::)
   target_link_libraries(myotet_${name}
     PUBLIC ${ROOM_ROOMS} ${ROOM_PUBLIC}

@@ -3,7 +3,10 @@
 # CMake/CheckIncludes.cmake holds the sources to it.
 
 set(myotet_rooms Core Segmentation LevelSet Repair Surface Quality Lattice Elasticity Dynamics Meshing
-                 Cage MeshFiles Report)
+                 Cage MeshFiles Report Fibres Muscle Skeleton Activation Membrane Contraction)
+
+# Rooms that lie in Simulation/, the others in Modules/.
+set(myotet_simulation_rooms Fibres Muscle Skeleton Activation Membrane Contraction)
 
 # <room>_may_include: rooms besides itself.
 set(Core_may_include)
@@ -19,10 +22,17 @@ set(Meshing_may_include Core LevelSet Lattice Quality Elasticity Dynamics)
 set(Cage_may_include Core Surface Quality Lattice)
 set(MeshFiles_may_include Core)
 set(Report_may_include Core Quality MeshFiles)
+set(Fibres_may_include Core Elasticity)
+set(Muscle_may_include Core Elasticity)
+set(Skeleton_may_include Core)
+set(Activation_may_include Core Muscle Skeleton)
+set(Membrane_may_include Core Surface Dynamics)
+set(Contraction_may_include Core Segmentation LevelSet Repair Surface Quality Lattice Elasticity Dynamics
+                            Meshing MeshFiles Fibres Muscle Skeleton Activation)
 
 # Third-party headers: a pattern of the header's name, then the rooms whose
 # .cpp files may include it. "Applications" is no room, but owns some.
-set(myotet_owned_headers itk nifti dcmtk zlib openvdb yaml vtk hdf5 pugixml tbb CLI spdlog nlohmann)
+set(myotet_owned_headers itk nifti dcmtk zlib openvdb yaml vtk hdf5 pugixml png tbb cholmod CLI spdlog nlohmann)
 set(itk_pattern "^itk[A-Z]")
 set(itk_owners Segmentation LevelSet)
 set(nifti_pattern "^nifti")
@@ -36,13 +46,17 @@ set(openvdb_owners LevelSet)
 set(yaml_pattern "^yaml-cpp/")
 set(yaml_owners Repair)
 set(vtk_pattern "^vtk[A-Z]")
-set(vtk_owners MeshFiles Report)
+set(vtk_owners MeshFiles)
 set(hdf5_pattern "^hdf5\\.h$")
 set(hdf5_owners MeshFiles)
 set(pugixml_pattern "^pugixml\\.hpp$")
 set(pugixml_owners MeshFiles)
+set(png_pattern "^png\\.h$")
+set(png_owners Report)
 set(tbb_pattern "^tbb/")
 set(tbb_owners Core)
+set(cholmod_pattern "^suitesparse/|^openblas")
+set(cholmod_owners Dynamics)
 set(CLI_pattern "^CLI/")
 set(CLI_owners Applications)
 set(spdlog_pattern "^spdlog/")

@@ -8,7 +8,9 @@ myotet_packages=(
   libinsighttoolkit5-dev libnifti2-dev libdcmtk-dev
   libopenvdb-dev libboost-iostreams-dev libblosc-dev
   libyaml-cpp-dev
+  libsuitesparse-dev libopenblas-dev
   libvtk9-dev libhdf5-dev libpugixml-dev
+  libpng-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )

@@ -22,18 +22,26 @@ constexpr double kFlatter = 0.9;
 constexpr int kMostHalvings = 25;
 // The first solves need no more than a direction.
 constexpr double kLoosest = 0.1, kTightest = 1e-10;
+// So many iterations cost a fifth of what the stiffness does: as short time steps need few,
+// they are taken, and an iteration of Newton's method is saved.
+constexpr int kCheap = 15;
 constexpr double kGuess = 0.01;
 // The last solve aims at this part of the tolerance.
 constexpr double kEnough = 0.3;
+// Bold steps in a row, how long each must be, and careful ones after they failed.
+constexpr int kMostBold = 5, kRest = 1;
+constexpr double kBold = 0.5;
+// ... and by how much more it may raise the energy than it promised to lower it.
+constexpr double kRaise = 1e3;
 // How far along a downward curve a node may move at first, and least: parts of the body.
 constexpr double kReach = 0.02, kLeastReach = 1e-4;
 
 // What rounding of the positions alone does to forces and energies: epsilon times
-// |K| |x|, and |K| times the squared distance of neighbours.
+// |K| |x|, and |K| times the squared distance of neighbours; and rounding of the energy.
 struct Rounding {
     double force = 0, energy = 0;
 
-    Rounding(const BlockMatrix& K, const NodeVectors& x) {
+    Rounding(const BlockMatrix& K, const NodeVectors& x, double level) : energy(std::abs(level)) {
         double reach = 0, squares = 0;
         for (std::size_t n = 0; n < x.size(); ++n) {
             double distance = 0;
@@ -87,7 +95,10 @@ void EquilibriumOptions::validate() const {
 
 Equilibrium::Equilibrium(std::vector<Potential*> potentials, std::size_t nodes,
                          const std::vector<std::int32_t>& held, const EquilibriumOptions& options)
-    : potentials_(std::move(potentials)), held_(nodes, 0), options_(options) {
+    : potentials_(std::move(potentials)),
+      held_(nodes, 0),
+      options_(options),
+      solver_(options.linear_method) {
     options_.validate();
     require(!potentials_.empty(), "number of potentials", potentials_.size(),
             "there must be at least one");
@@ -111,10 +122,23 @@ double Equilibrium::energy(const NodeVectors& x) {
     return sum;
 }
 
-NodeVectors Equilibrium::forces() const {
+// All forces, and what the potentials' would be if they did not cancel, squared.
+NodeVectors Equilibrium::forces(double& squares) const {
     NodeVectors sum(held_.size(), Vec3::Zero());
-    for (const Potential* potential : potentials_) potential->add_forces(sum);
+    potentials_.front()->add_forces(sum);
+    squares = dot(sum, sum);
+    for (std::size_t i = 1; i < potentials_.size(); ++i) {
+        NodeVectors another(held_.size(), Vec3::Zero());
+        potentials_[i]->add_forces(another);
+        squares += dot(another, another);
+        add_scaled(1, another, sum);
+    }
     return sum;
+}
+
+NodeVectors Equilibrium::forces() const {
+    double squares = 0;
+    return forces(squares);
 }
 
 double Equilibrium::largest_step(const NodeVectors& x, const NodeVectors& by) const {
@@ -124,26 +148,21 @@ double Equilibrium::largest_step(const NodeVectors& x, const NodeVectors& by) co
     return step;
 }
 
-// Root mean forces: of free nodes beside all.
-double Equilibrium::residual(const NodeVectors& forces) const {
-    NodeVectors left = forces;
-    for (std::size_t n = 0; n < left.size(); ++n)
-        if (held_[n]) left[n].setZero();
-    const double all = dot(forces, forces);
-    return all > 0 ? std::sqrt(dot(left, left) / all) : 0;
-}
-
 LinearSummary Equilibrium::direction(const NodeVectors& right, double tolerance, NodeVectors& d) {
     K_.set_zero();
     for (const Potential* potential : potentials_) potential->add_stiffness(K_);
-    return solve(K_, held_, right, {tolerance, options_.linear_iterations}, d);
+    return solver_.solve(K_, held_, right, {tolerance, options_.linear_iterations, kCheap}, d);
 }
 
 LinearSummary Equilibrium::predict(const NodeVectors& x, NodeVectors& by) {
-    for (std::size_t n = 0; n < by.size(); ++n)
+    double moved = 0;
+    for (std::size_t n = 0; n < by.size(); ++n) {
         if (!held_[n]) by[n].setZero();
+        moved = std::max(moved, by[n].squaredNorm());
+    }
+    if (!(moved > 0)) return {.converged = true};
     (void)energy(x);
-    return direction(forces(), kGuess, by);
+    return direction(NodeVectors(x.size(), Vec3::Zero()), kGuess, by);
 }
 
 // Along d from x, where the forces are those. Returns the part of d that was gone, 0 when
@@ -170,25 +189,53 @@ double Equilibrium::line_search(const NodeVectors& forces_here, const NodeVector
     return 0;
 }
 
+// A whole step of Newton's method that need not lower the energy. Returns whether it was
+// taken; where it lowers the energy below that of the watched place, watching ends.
+bool Equilibrium::bold_step(const NodeVectors& forces_here, const NodeVectors& d, NodeVectors& x,
+                            double& level, Watch& watch) {
+    if (watch.rest > 0) {
+        --watch.rest;
+        return false;
+    }
+    double step = largest_step(x, d);
+    if (step < 1) step *= kSafety;
+    if (step < kBold) return false;
+    if (watch.steps == 0) watch = {x, forces_here, d, level, 0, 0, watch.rounding};
+    if (watch.steps == kMostBold) return false;
+    NodeVectors trial = x;
+    add_scaled(step, d, trial);
+    const double there = energy(trial);
+    if (!(there <= level + kRaise * dot(forces_here, d))) return false;
+    x = std::move(trial);
+    level = there;
+    ++watch.steps;
+    if (level <= watch.level - kDecrease * dot(watch.forces, watch.d)) watch.steps = 0;
+    return true;
+}
+
 EquilibriumSummary Equilibrium::find(NodeVectors& x) {
     EquilibriumSummary summary;
+    const int factors = solver_.factors();
     summary.energy = energy(x);
     summary.message = "the energy at the start is not finite";
     if (!std::isfinite(summary.energy)) return summary;
     Reach reach(x);
+    Watch watch;
     for (double first = 0;;) {
-        NodeVectors f = forces();
-        summary.residual = residual(f);
+        double squares = 0;
+        NodeVectors f = forces(squares);
+        for (std::size_t n = 0; n < f.size(); ++n)
+            if (held_[n]) f[n].setZero();
+        const double left = std::sqrt(dot(f, f));
+        summary.residual = squares > 0 ? left / std::sqrt(squares) : 0;
         summary.history.push_back(summary.residual);
-        summary.converged = summary.residual <= options_.tolerance;
+        summary.factors = solver_.factors() - factors;
+        summary.converged = summary.residual <= options_.tolerance && watch.allows(summary.energy);
         summary.message = "forces balance";
         if (summary.converged) return summary;
         summary.message = "out of iterations";
         if (summary.iterations == options_.iterations) return summary;
 
-        for (std::size_t n = 0; n < f.size(); ++n)
-            if (held_[n]) f[n].setZero();
-        const double left = std::sqrt(dot(f, f));
         first = std::max(first, left);
         NodeVectors d(x.size(), Vec3::Zero());
         const double enough = kEnough * options_.tolerance / summary.residual;
@@ -197,18 +244,28 @@ EquilibriumSummary Equilibrium::find(NodeVectors& x) {
         ++summary.iterations;
         summary.linear_iterations += linear.iterations;
 
-        const Rounding rounding(K_, x);
-        summary.converged = left <= rounding.force;
+        const Rounding rounding(K_, x, summary.energy);
+        watch.rounding = rounding.energy;
+        summary.converged = left <= rounding.force && watch.allows(summary.energy);
         summary.message = "forces balance to rounding";
         if (summary.converged) return summary;
-        if (!linear.downward.empty()) {
+        const bool downward = !linear.downward.empty();
+        if (!downward && bold_step(f, d, x, summary.energy, watch)) continue;
+        if (watch.steps > 0) {
+            // Boldness led uphill: back, and on as the energy says.
+            x = watch.x;
+            f = watch.forces;
+            d = watch.d;
+            summary.energy = watch.level;
+            watch = {.rest = kRest, .rounding = rounding.energy};
+        } else if (downward) {
             ++summary.indefinite_iterations;
             reach.extend(linear.downward, d);
         }
         const double step = line_search(f, d, rounding.energy, x, summary.energy);
         summary.message = "no step lowers the energy";
         if (!(step > 0)) return summary;
-        if (!linear.downward.empty()) reach.learn(step);
+        if (downward) reach.learn(step);
     }
 }
 

@@ -3,19 +3,20 @@
 
 #include <string>
 
-#include "Dynamics/ConjugateGradients.h"
+#include "Dynamics/LinearSolver.h"
 #include "Dynamics/Potential.h"
 
 namespace myotet::dynamics {
 
 /// How well and how long equilibrium is sought.
 struct EquilibriumOptions {
-    /// Ends when the force left on free nodes is this part of all nodal forces, held
-    /// nodes' included (root sums of squares), or no more than rounding of the positions
-    /// does.
+    /// Ends when the force left on free nodes is this part of what each potential does to
+    /// all nodes, held ones included (root sums of squares), or no more than rounding of
+    /// the positions does.
     double tolerance = 1e-6;
     int iterations = 40;           ///< of Newton's method, at most
     int linear_iterations = 2000;  ///< of conjugate gradients in each, at most
+    LinearMethod linear_method = LinearMethod::automatic;
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
@@ -26,23 +27,26 @@ struct EquilibriumSummary {
     int iterations = 0;             ///< of Newton's method
     int indefinite_iterations = 0;  ///< of those, where the energy curved downwards
     int linear_iterations = 0;      ///< of conjugate gradients in all
+    int factors = 0;                ///< Cholesky factors made
     double residual = 0;            ///< as `tolerance` measures it
     double energy = 0;              ///< mJ
     std::vector<double> history;    ///< residual before each iteration and at the end
 };
 
 /// Finds positions where the sum of some potentials is least while some nodes are
-/// held, by Newton's method [Nocedal and Wright 2006, ch. 3, 7]:
+/// held, by Newton's method [Nocedal and Wright 2006, ch. 3, 7, 15.4]:
 /// - a direction d from K d = f by conjugate gradients, solved the better the nearer the
 ///   end (relative residual |f| / |f at the start|: second order is kept), but no better
 ///   than the end needs;
 /// - where the energy curves downwards, as in buckling, as far as conjugate gradients
 ///   came and on along the curve, by a reach that grows while such steps succeed;
-/// - a step at most 90 % of the way to where the energy becomes infinite, halved until
-///   the energy has decreased by 1e-4 of what the slope promises (Armijo) or, where
+/// - a step at most 90 % of the way to where the energy becomes infinite: up to three whole
+///   steps in a row that may raise the energy, as they do where volume hardly changes, as
+///   long as it ends lower (watchdog); where it does not, from where they began, halved
+///   until the energy has decreased by 1e-4 of what the slope promises (Armijo) or, where
 ///   rounding hides that, the slope.
-/// So no tetrahedron ever inverts, the energy never grows, and buckling is followed to
-/// where it ends.
+/// So no tetrahedron ever inverts, the energy at the end is not above that at the start but
+/// for rounding, and buckling is followed to where it ends.
 ///
 /// Cost of an iteration on a lattice's mesh: about 1.2 us a tetrahedron, and 0.017 us for
 /// each iteration of conjugate gradients, some 50 to 400. Same bytes on any number of
@@ -58,9 +62,9 @@ public:
     /// found.
     [[nodiscard]] EquilibriumSummary find(NodeVectors& x);
 
-    /// To first order, how all nodes move when the held ones move by what `by` says of
-    /// them, and the potentials are as they are now: one solve at x. The first guess of
-    /// a load step.
+    /// To first order, how free nodes go along when the held ones move by what `by` says of
+    /// them: one solve at x, none when nothing moves. The first guess of a load step; what
+    /// else changes is left to find(), which looks how far each step may go.
     [[nodiscard]] LinearSummary predict(const NodeVectors& x, NodeVectors& by);
 
     /// The least of what the potentials allow.
@@ -74,7 +78,20 @@ private:
     [[nodiscard]] double energy(const NodeVectors& x);
     [[nodiscard]] LinearSummary direction(const NodeVectors& right, double tolerance,
                                           NodeVectors& d);
-    [[nodiscard]] double residual(const NodeVectors& forces) const;
+    [[nodiscard]] NodeVectors forces(double& squares) const;
+    // Where a run of bold steps began.
+    struct Watch {
+        NodeVectors x, forces, d;
+        double level = 0;
+        int steps = 0;        ///< taken since, with the energy not below
+        int rest = 0;         ///< careful steps before the next bold one
+        double rounding = 0;  ///< of energies
+        [[nodiscard]] bool allows(double energy) const {
+            return steps == 0 || energy <= level + rounding;
+        }
+    };
+    bool bold_step(const NodeVectors& forces, const NodeVectors& d, NodeVectors& x, double& level,
+                   Watch& watch);
     double line_search(const NodeVectors& forces, const NodeVectors& d, double rounding,
                        NodeVectors& x, double& level);
 
@@ -82,6 +99,7 @@ private:
     std::vector<char> held_;
     EquilibriumOptions options_;
     BlockMatrix K_;
+    LinearSolver solver_;
 };
 
 }  // namespace myotet::dynamics

@@ -16,44 +16,6 @@ constexpr double kGrowth = 1.5;
 // Loads nearer to one another than this are the same.
 constexpr double kSameLoad = 1e-12;
 
-class Loader {
-public:
-    Loader(const LoadCase& load_case, const LoadOptions& options, NodeVectors& x)
-        : case_(load_case),
-          equilibrium_(load_case.potentials, x.size(), load_case.held, options.equilibrium),
-          x_(x) {}
-
-    // From x to the equilibrium at `load`; x changes only when that is found.
-    EquilibriumSummary go_to(double load) {
-        NodeVectors there = x_;
-        case_.apply(load, there);
-        NodeVectors by = there;
-        add_scaled(-1, x_, by);
-        EquilibriumSummary summary;
-        const LinearSummary guess = equilibrium_.predict(x_, by);
-        NodeVectors farther = by;
-        for (Vec3& p : farther) p /= kMostOfTheWay;
-        if (equilibrium_.largest_step(x_, farther) < 1) {
-            summary.message = "a tetrahedron would be flattened";
-        } else {
-            there = x_;
-            add_scaled(1, by, there);
-            case_.apply(load, there);
-            summary = equilibrium_.find(there);
-        }
-        summary.linear_iterations += guess.iterations;
-        if (summary.converged) x_ = std::move(there);
-        return summary;
-    }
-
-    [[nodiscard]] NodeVectors forces() const { return equilibrium_.forces(); }
-
-private:
-    const LoadCase& case_;
-    Equilibrium equilibrium_;
-    NodeVectors& x_;
-};
-
 void record(const EquilibriumSummary& step, double load, LoadSummary& summary) {
     summary.iterations += step.iterations;
     summary.indefinite_iterations += step.indefinite_iterations;
@@ -68,6 +30,32 @@ void record(const EquilibriumSummary& step, double load, LoadSummary& summary) {
 }
 
 }  // namespace
+
+LoadStepper::LoadStepper(const std::vector<Potential*>& potentials, std::size_t nodes,
+                         const std::vector<std::int32_t>& held, const EquilibriumOptions& options)
+    : equilibrium_(potentials, nodes, held, options) {}
+
+EquilibriumSummary LoadStepper::go_to(double load, const ApplyLoad& apply, NodeVectors& x) {
+    NodeVectors there = x;
+    apply(load, there);
+    NodeVectors by = there;
+    add_scaled(-1, x, by);
+    EquilibriumSummary summary;
+    const LinearSummary guess = equilibrium_.predict(x, by);
+    NodeVectors farther = by;
+    for (Vec3& p : farther) p /= kMostOfTheWay;
+    if (equilibrium_.largest_step(x, farther) < 1) {
+        summary.message = "a tetrahedron would be flattened";
+    } else {
+        there = x;
+        add_scaled(1, by, there);
+        apply(load, there);
+        summary = equilibrium_.find(there);
+    }
+    summary.linear_iterations += guess.iterations;
+    if (summary.converged) x = std::move(there);
+    return summary;
+}
 
 void LoadOptions::validate() const {
     require(least_step > 0, "least step", least_step, "it must be positive");
@@ -85,12 +73,12 @@ LoadSummary apply_load(const LoadCase& load_case, const LoadOptions& options, No
     options.validate();
     if (!load_case.apply)
         throw InputError("LoadCase::apply is empty, but something must move the held nodes");
-    Loader loader(load_case, options, x);
+    LoadStepper stepper(load_case.potentials, x.size(), load_case.held, options.equilibrium);
     LoadSummary summary;
     const auto show = [&](double load, const EquilibriumSummary& step) {
-        if (watch) watch({load, x, loader.forces(), step});
+        if (watch) watch({load, x, stepper.forces(), step});
     };
-    const EquilibriumSummary start = loader.go_to(0);
+    const EquilibriumSummary start = stepper.go_to(0, load_case.apply, x);
     record(start, 0, summary);
     summary.message = "no equilibrium at the start: " + start.message;
     if (!start.converged) return summary;
@@ -98,7 +86,7 @@ LoadSummary apply_load(const LoadCase& load_case, const LoadOptions& options, No
     show(0, start);
     for (double size = options.first_step; summary.load < 1 - kSameLoad;) {
         const double load = std::min(1.0, summary.load + size);
-        const EquilibriumSummary step = loader.go_to(load);
+        const EquilibriumSummary step = stepper.go_to(load, load_case.apply, x);
         record(step, load, summary);
         if (step.converged) {
             show(load, step);

@@ -7,14 +7,33 @@
 
 namespace myotet::dynamics {
 
+/// Moves the held nodes (and no other) to where they are at a load or time, and changes what
+/// the potentials depend on besides, such as activation. A load may come again, and a lower
+/// one after a higher one.
+using ApplyLoad = std::function<void(double load, NodeVectors& x)>;
+
+/// From one equilibrium to the next.
+class LoadStepper {
+public:
+    /// As Equilibrium.
+    LoadStepper(const std::vector<Potential*>& potentials, std::size_t nodes,
+                const std::vector<std::int32_t>& held, const EquilibriumOptions& options);
+    /// From x, an equilibrium, to the equilibrium at `load`; x changes only when that is
+    /// found. Begins where the linearised body would be, which must not pass a flat
+    /// tetrahedron.
+    [[nodiscard]] EquilibriumSummary go_to(double load, const ApplyLoad& apply, NodeVectors& x);
+    /// Of the potentials where they stand, N.
+    [[nodiscard]] NodeVectors forces() const { return equilibrium_.forces(); }
+
+private:
+    Equilibrium equilibrium_;
+};
+
 /// A body taken slowly from a load of 0 to one of 1.
 struct LoadCase {
     std::vector<Potential*> potentials;  ///< their sum is the energy; at least one
     std::vector<std::int32_t> held;      ///< nodes whose positions are prescribed
-    /// Called for a load: moves the held nodes (and no other) to where they are then, and
-    /// changes what the potentials depend on besides, such as activation. A load may come
-    /// again, and a lower one after a higher one.
-    std::function<void(double load, NodeVectors& x)> apply;
+    ApplyLoad apply;
 };
 
 struct LoadOptions {

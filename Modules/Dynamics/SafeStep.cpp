@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Dynamics/SafeStep.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace myotet::dynamics {
@@ -49,9 +49,9 @@ Cubic volume_along(const Mat3& E, const Mat3& D) {
 
 }  // namespace
 
-double first_flat(const elasticity::Corners& x, const elasticity::Corners& by) {
-    const Cubic volume = volume_along(elasticity::edges_of(x), elasticity::edges_of(by));
-    // Most steps are small beside the tetrahedron.
+double first_flat(const Mat3& F, const Mat3& by) {
+    const Cubic volume = volume_along(F, by);
+    // Most steps are small.
     if (std::abs(volume.b) + std::abs(volume.c) + std::abs(volume.d) < volume.a) return 1;
     double low = 0;
     const auto [first, second] = volume.stationary();

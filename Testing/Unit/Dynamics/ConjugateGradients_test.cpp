@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "Core/Parallel.h"
 #include "Dynamics/ElasticBody.h"
 #include "Dynamics/NodeAlgebra.h"
 #include "DynamicsShapes.h"
 #include "Elasticity/Materials.h"
-#include "Elasticity/TetLaw.h"
+#include "Elasticity/PointLaw.h"
 
 namespace myotet::dynamics {
 namespace {
@@ -80,6 +82,59 @@ TEST(Solve, GivesAWayDownWhereTheMatrixIsNotPositive) {
                 EXPECT_EQ(p[n], Vec3(Vec3::Zero()));
             }
     }
+}
+
+TEST(Solve, SinglePrecisionServesALooseTolerance) {
+    const Held block;
+    const NodeVectors right = test::random_vectors(block.held.size(), 1, 1);
+    NodeVectors loose(right.size(), Vec3::Zero()), tight = loose;
+    // From 1e-5 on K is read in single precision.
+    const LinearSummary single = solve(block.K, block.held, right, {1e-5, 1000}, loose),
+                        twice = solve(block.K, block.held, right, {0.99e-5, 1000}, tight);
+    EXPECT_TRUE(single.converged);
+    EXPECT_TRUE(twice.converged);
+    EXPECT_NEAR(single.iterations, twice.iterations, 2);
+    // What it promises holds of K itself: the residual that is left beside the right side, up
+    // to the ratio of the norms, that of the preconditioner and this one.
+    for (const NodeVectors& x : {loose, tight}) {
+        const NodeVectors product = multiply(block.K, x);
+        double left = 0, all = 0;
+        for (std::size_t n = 0; n < x.size(); ++n) {
+            if (block.held[n]) continue;
+            left += (product[n] - right[n]).squaredNorm();
+            all += right[n].squaredNorm();
+        }
+        EXPECT_LT(std::sqrt(left / all), 3e-5);
+    }
+}
+
+TEST(Solve, GoesOnWhileIterationsAreCheap) {
+    const Held block;
+    const NodeVectors right = test::random_vectors(block.held.size(), 1, 1);
+    const auto residual = [&](int cheap) {
+        NodeVectors x(right.size(), Vec3::Zero());
+        const LinearSummary summary = solve(block.K, block.held, right, {0.1, 1000, cheap}, x);
+        EXPECT_TRUE(summary.converged);
+        return std::pair(summary.iterations, summary.residual);
+    };
+    const auto [few, loose] = residual(0);
+    const auto [some, tighter] = residual(few + 5);
+    const auto [many, tight] = residual(1000);
+    EXPECT_EQ(some, few + 5);
+    EXPECT_LT(tighter, loose);
+    EXPECT_LE(tight, 1e-3);
+    EXPECT_LT(many, 200);
+}
+
+TEST(Solve, WhatIsNoNumberDoesNotConverge) {
+    const Held block;
+    BlockMatrix K = block.K;
+    K.value.back()(0, 0) = std::nan("");
+    NodeVectors x(block.held.size(), Vec3::Zero());
+    const LinearSummary summary =
+        solve(K, block.held, test::random_vectors(x.size(), 1, 1), {1e-8, 100}, x);
+    EXPECT_FALSE(summary.converged);
+    EXPECT_TRUE(summary.downward.empty());
 }
 
 TEST(Solve, SameBytesOnOneThreadOrMany) {

@@ -18,7 +18,7 @@ namespace {
 using elasticity::NeoHookean;
 constexpr EquilibriumOptions kExact{.tolerance = 1e-11};
 
-std::shared_ptr<const elasticity::TetLaw> rubber(double poisson) {
+std::shared_ptr<const elasticity::PointLaw> rubber(double poisson) {
     return std::make_shared<elasticity::OneLaw<NeoHookean>>(
         NeoHookean{elasticity::lame_from(1, poisson)});
 }

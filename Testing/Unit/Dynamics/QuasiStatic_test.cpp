@@ -129,7 +129,7 @@ TEST(ApplyLoad, StopsWhereTheLoadCannotBeBorneAndSaysSo) {
 
 TEST(ApplyLoad, ALawMayDependOnTheLoad) {
     // The rest height of a spring along z, as activation would change it.
-    class Contracting final : public elasticity::TetLaw {
+    class Contracting final : public elasticity::PointLaw {
     public:
         double stretch = 1;
         double energy(std::size_t, const Mat3& F) const override { return law_.energy(F * to()); }

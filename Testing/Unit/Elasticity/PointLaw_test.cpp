@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Elasticity/TetLaw.h"
+#include "Elasticity/PointLaw.h"
 
 #include "Elasticity/Materials.h"
 #include "LawKit.h"
@@ -10,7 +10,7 @@ namespace {
 TEST(OneLaw, IsTheSameForEveryTetrahedron) {
     const NeoHookean rubber{lame_from(0.1, 0.45)};
     const OneLaw<NeoHookean> one(rubber);
-    const TetLaw& law = one;
+    const PointLaw& law = one;
     for (const Mat3& F : kit::deformations())
         for (const std::size_t t : {0u, 7u}) {
             EXPECT_EQ(law.energy(t, F), rubber.energy(F));
