@@ -7,6 +7,7 @@
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "Phantoms/Fusiform.h"
 #include "Phantoms/Scene.h"
 #include "Phantoms/Shapes.h"
 
@@ -84,19 +85,40 @@ Scene shell_scene() {
             [](const Vec3& p) { return std::max(p.norm() - kOuter, kInner - p.norm()); }));
 }
 
+Scene fusiform_scene() {
+    constexpr std::array<double, 3> kWhite{0.93, 0.93, 0.82};
+    Tissue belly =
+        from_distance(1, {"belly", kRed}, fusiform_belly_volume(), fusiform_belly_distance);
+    Tissue tendon =
+        from_distance(2, {"tendon", kWhite}, fusiform_tendon_volume(), fusiform_tendon_distance);
+    // The same as its distance, which is slow to find.
+    belly.contains = [](const Vec3& p) {
+        return p.z() >= kFusiformTendon && p.z() <= kFusiformLength - kFusiformTendon &&
+               p.head<2>().norm() <= fusiform_radius(p.z());
+    };
+    belly.fibre = tendon.fibre = fusiform_fibre;
+    Scene scene;
+    scene.box.min = Vec3(-kFusiformThick, -kFusiformThick, 0);
+    scene.box.max = Vec3(kFusiformThick, kFusiformThick, kFusiformLength);
+    scene.tissues = {belly, tendon};
+    return scene;
+}
+
 struct Entry {
     std::string_view name, description;
     Scene (*make)();
     double spacing_xy, spacing_z;
 };
 
-constexpr std::array<Entry, 6> kPhantoms{{
+constexpr std::array<Entry, 7> kPhantoms{{
     {"sphere", "a ball of 20 mm radius", sphere_scene, 1, 1},
     {"torus", "a ring of 20 mm radius whose tube has 8 mm", torus_scene, 1, 1},
     {"blocks", "two touching blocks with sharp edges", blocks_scene, 1, 1},
     {"ellipsoid", "half axes of 18, 14 and 40 mm, in slices of 5 mm", ellipsoid_scene, 1, 5},
     {"shell", "a hollow ball, 20 mm outside and 13 mm inside", shell_scene, 1, 1},
     {"arm", "humerus, radius and ulna, biceps and triceps with their tendons", arm_scene, 1, 1},
+    {"fusiform", "a spindle-shaped muscle of 100 mm between its tendons, with known fibres",
+     fusiform_scene, 1, 1},
 }};
 
 const Entry& find_entry(std::string_view name) {
@@ -189,6 +211,9 @@ Phantom make_phantom(std::string_view name, const PhantomOptions& options) {
                                               shift = options.translation](const Vec3& lps) {
                 return distance(lps - shift);
             };
+        if (tissue.fibre)
+            phantom.fibre[tissue.label] = [fibre = tissue.fibre, shift = options.translation](
+                                              const Vec3& lps) { return fibre(lps - shift); };
     }
     return phantom;
 }

@@ -14,11 +14,15 @@ namespace myotet::phantoms {
 /// patient (LPS, mm); negative inside.
 using Distance = std::function<double(const Vec3&)>;
 
+/// Direction of a label's fibres at a point of the patient, of length 1, LPS.
+using Fibre = std::function<Vec3(const Vec3&)>;
+
 /// A label volume of which the truth is known.
 struct Phantom {
     LabelVolume volume;
     std::map<std::int32_t, double> true_volume;  ///< mm^3, of every label
     std::map<std::int32_t, Distance> distance;   ///< of every label, but for `arm`: none
+    std::map<std::int32_t, Fibre> fibre;         ///< of the labels of `fusiform`
 };
 
 /// How a phantom is scanned. The body stays where it is in the patient; the
@@ -32,7 +36,7 @@ struct PhantomOptions {
     void validate() const;
 };
 
-/// sphere, torus, blocks, ellipsoid, shell, arm.
+/// sphere, torus, blocks, ellipsoid, shell, arm, fusiform.
 [[nodiscard]] std::vector<std::string_view> phantom_names();
 
 /// Spacing that a phantom has when none is asked for, mm. Throws InputError

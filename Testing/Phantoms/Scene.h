@@ -16,6 +16,7 @@ struct Tissue {
     std::function<bool(const Vec3&)> contains;  ///< of body coordinates, mm
     double true_volume = 0;                     ///< of what the tissues before leave over, mm^3
     Distance distance;                          ///< of body coordinates; may be empty
+    Fibre fibre;                                ///< of body coordinates; may be empty
 };
 
 /// A body before it is scanned.
