@@ -10,6 +10,14 @@
 
 namespace myotet::segmentation {
 
+/// A format, by a file's extension.
+enum class Format { none, nifti, nrrd, metaimage, dicom };
+[[nodiscard]] Format format_of(const std::filesystem::path& file);
+
+/// Throws IoError unless it is a file, and one with content; `what` is the kind of file to
+/// name instead.
+void check_file(const std::filesystem::path& file, const char* what);
+
 /// The formats, each read into a LabelFile with the names found in the file
 /// itself. Errors as read_labels; labels and tables are not looked at yet.
 [[nodiscard]] LabelFile read_nifti(const std::filesystem::path& file, const ReadOptions& options);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Segmentation/NrrdHeader.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -146,30 +148,43 @@ struct Axes {
                      "for --one-hot when each is the mask of one label");
 }
 
+/// Whether an axis that spans no space may hold the components of vectors.
+void check_vector_axis(std::int64_t count, const std::string& kind, const fs::path& file) {
+    constexpr std::array kVectors{
+        "vector", "3-vector", "covariant-vector", "3-gradient", "3-normal", "none", "???", ""};
+    if (count != 3 || std::ranges::find(kVectors, kind) == kVectors.end())
+        throw InputError(file.string() + ": holds " + std::to_string(count) +
+                         " values a voxel of the kind '" + kind.substr(0, 40) +
+                         "', but vectors have three of the kind 'vector'; export vectors, or "
+                         "correct the header's kinds");
+}
+
 /// Whether an axis that spans no space may hold layers.
 void check_layer_axis(std::size_t axis, std::int64_t count, const TextHeader& header,
-                      std::size_t dimensions, const fs::path& file, bool one_hot) {
+                      std::size_t dimensions, const fs::path& file, NrrdHolds holds) {
     const std::vector<std::string> kinds = words_of(lower_case(header.get("kinds")));
     const std::string kind = kinds.size() == dimensions ? kinds[axis] : "";
     if (kind.ends_with("-color"))
         throw InputError(file.string() + ": stores colours (kind '" + kind.substr(0, 40) +
                          "'), but labels are numbers; export the label map, not its picture");
-    if (count < 1 || count > kMostLayers || (!one_hot && kind != "list" && kind != "vector"))
+    if (holds == NrrdHolds::vectors) return check_vector_axis(count, kind, file);
+    const bool any_kind = holds == NrrdHolds::masks;
+    if (count < 1 || count > kMostLayers || (!any_kind && kind != "list" && kind != "vector"))
         refuse_components(count, kind, file);
 }
 
 Axes sort_axes(const Directions& directions, const std::vector<std::int64_t>& sizes,
-               const TextHeader& header, const fs::path& file, bool one_hot) {
+               const TextHeader& header, const fs::path& file, NrrdHolds holds) {
     Axes axes;
     std::size_t found = 0;
     for (std::size_t n = 0; n < sizes.size(); ++n) {
         if (directions[n] && found < 3) {
             axes.space[found++] = n;
         } else if (sizes[n] != 1) {
-            check_layer_axis(n, sizes[n], header, sizes.size(), file, one_hot);
+            check_layer_axis(n, sizes[n], header, sizes.size(), file, holds);
             if (axes.layers || (found != 0 && found != 3))
                 throw InputError(file.string() +
-                                 ": its axes of layers stand between those of space or are "
+                                 ": its axes of values stand between those of space or are "
                                  "several, but one is read, first or last; reorder the axes");
             axes.layers = n;
         }
@@ -215,9 +230,21 @@ Vec3 origin_of(const TextHeader& header, const fs::path& file) {
     return {v[0], v[1], v[2]};
 }
 
+/// By columns, from the vectors' own axes to those of space; the same where there is none.
+Mat3 measurement_frame(const TextHeader& header, const fs::path& file) {
+    const std::string text = header.get("measurement frame");
+    if (text.empty()) return Mat3::Identity();
+    const std::vector<double> v = parse_numbers(text);
+    Mat3 frame = Mat3::Constant(std::nan(""));
+    if (v.size() == 9) frame = Eigen::Map<const Mat3>(v.data());
+    if (!(frame.allFinite() && std::abs(frame.determinant()) > 0))
+        refuse(file, "measurement frame", text, "three vectors of three numbers that span space");
+    return frame;
+}
+
 }  // namespace
 
-NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file, bool one_hot) {
+NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file, NrrdHolds holds) {
     NrrdMeaning meaning;
     meaning.type = type_of(header, file);
     const std::vector<std::int64_t> sizes = sizes_of(header, file);
@@ -226,7 +253,7 @@ NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file, bool 
         text.empty() ? from_spacings(header, sizes.size(), file) : directions_of(text, file);
     if (directions.size() != sizes.size())
         refuse(file, "space directions", text, "one entry an axis");
-    const auto [axes, layers] = sort_axes(directions, sizes, header, file, one_hot);
+    const auto [axes, layers] = sort_axes(directions, sizes, header, file, holds);
     if (layers) {
         meaning.layers = sizes[*layers];
         meaning.interleaved = *layers < axes[0];
@@ -247,6 +274,13 @@ NrrdMeaning interpret_nrrd(const TextHeader& header, const fs::path& file, bool 
     meaning.index_to_lps.translation() = sign.cwiseProduct(origin_of(header, file));
     meaning.index_to_lps.affine() *= unit_in_mm(header, file);
     check_geometry(meaning.index_to_lps, file);
+    if (holds == NrrdHolds::vectors) {
+        if (meaning.layers == 1)
+            throw InputError(file.string() +
+                             ": holds one value a voxel, but vectors have three; name a file of "
+                             "vectors");
+        meaning.frame_to_lps = sign.asDiagonal() * measurement_frame(header, file);
+    }
     return meaning;
 }
 

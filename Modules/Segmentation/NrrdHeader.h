@@ -12,24 +12,32 @@
 
 namespace myotet::segmentation {
 
-/// What the fields of an NRRD header mean for a label volume.
+/// What a voxel of an NRRD file is to hold.
+enum class NrrdHolds {
+    labels,   ///< a label, or one a layer (an axis of the kind list or vector)
+    masks,    ///< of each label one: an axis of any kind but a colour's
+    vectors,  ///< three numbers: an axis of size 3 of a vector's kind, or of none
+};
+
+/// What the fields of an NRRD header mean.
 struct NrrdMeaning {
     Index3 size{0, 0, 0};
     Eigen::Affine3d index_to_lps = Eigen::Affine3d::Identity();
     ScalarType type = ScalarType::uint8;
-    std::int64_t layers = 1;   ///< label volumes, which may overlap
-    bool interleaved = false;  ///< the axis of layers comes first, as 3D Slicer has it
+    std::int64_t layers = 1;   ///< values a voxel: labels, which may overlap, or components
+    bool interleaved = false;  ///< their axis comes first, as 3D Slicer has it
+    Mat3 frame_to_lps = Mat3::Identity();  ///< for the components of vectors
     std::vector<std::string> warnings;
 };
 
 /// Reads type, sizes, kinds, space, directions, origin, spacings and units by
 /// the definition of the format (teem.sourceforge.net/nrrd/format.html). The
-/// three axes that span space may have an axis of layers (kind list or vector;
-/// any but a colour with `one_hot`) before or behind them and others of size 1.
+/// three axes that span space may have an axis of values before or behind them
+/// and others of size 1; for vectors also the measurement frame.
 /// Throws InputError for colours, other vectors, images and whatever does not
 /// place voxels in space.
 [[nodiscard]] NrrdMeaning interpret_nrrd(const TextHeader& header,
-                                         const std::filesystem::path& file, bool one_hot);
+                                         const std::filesystem::path& file, NrrdHolds holds);
 
 /// 3D Slicer's names and colours of segments, one map a layer, by
 /// SegmentN_LabelValue, _Layer, _Name (or _ID) and _Color

@@ -22,20 +22,6 @@ namespace fs = std::filesystem;
 // A unit cell this much flatter than a box has lost a dimension to rounding.
 constexpr double kSingular = 1e-6;
 
-enum class Format { none, nifti, nrrd, metaimage, dicom };
-
-Format format_of(const fs::path& file) {
-    const std::string name = lower_case(file.filename().string());
-    const auto ends = [&](std::string_view suffix) {
-        return name.size() > suffix.size() && name.ends_with(suffix);
-    };
-    if (ends(".nii") || ends(".nii.gz")) return Format::nifti;
-    if (ends(".nrrd") || ends(".nhdr")) return Format::nrrd;
-    if (ends(".mha") || ends(".mhd")) return Format::metaimage;
-    if (ends(".dcm")) return Format::dicom;
-    return Format::none;
-}
-
 [[noreturn]] void refuse_format(const fs::path& file, const char* formats) {
     throw InputError(file.string() + ": the extension '" + file.extension().string() +
                      "' names no label format that is known here; use " + formats);
@@ -64,17 +50,6 @@ LabelFile read_format(const fs::path& file, const ReadOptions& options) {
             break;
     }
     refuse_format(file, ".nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mhd or .dcm");
-}
-
-void check_file(const fs::path& file) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status))
-        throw IoError(file.string() + ": there is no such file; check the path");
-    if (!fs::is_regular_file(status))
-        throw IoError(file.string() + ": is not a file but a folder or device; name a label file");
-    if (fs::file_size(file, error) == 0 && !error)
-        throw IoError(file.string() + ": the file is empty; copy or export it again");
 }
 
 bool is_empty(const LabelVolume& layer) {
@@ -142,6 +117,29 @@ void clean_names(Names& names) {
 
 }  // namespace
 
+Format format_of(const fs::path& file) {
+    const std::string name = lower_case(file.filename().string());
+    const auto ends = [&](std::string_view suffix) {
+        return name.size() > suffix.size() && name.ends_with(suffix);
+    };
+    if (ends(".nii") || ends(".nii.gz")) return Format::nifti;
+    if (ends(".nrrd") || ends(".nhdr")) return Format::nrrd;
+    if (ends(".mha") || ends(".mhd")) return Format::metaimage;
+    if (ends(".dcm")) return Format::dicom;
+    return Format::none;
+}
+
+void check_file(const fs::path& file, const char* what) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::exists(status))
+        throw IoError(file.string() + ": there is no such file; check the path");
+    if (!fs::is_regular_file(status))
+        throw IoError(file.string() + ": is not a file but a folder or device; name a " + what);
+    if (fs::file_size(file, error) == 0 && !error)
+        throw IoError(file.string() + ": the file is empty; copy or export it again");
+}
+
 void check_geometry(const Eigen::Affine3d& index_to_lps, const fs::path& file) {
     const Vec3 spacing = index_to_lps.linear().colwise().norm();
     std::ostringstream text;
@@ -174,7 +172,7 @@ Index3 checked_size(const std::array<std::int64_t, 3>& size, const fs::path& fil
 bool is_label_file(const fs::path& file) { return format_of(file) != Format::none; }
 
 LabelFile read_labels(const fs::path& file, const ReadOptions& options) {
-    check_file(file);
+    check_file(file, "label file");
     LabelFile result = read_format(file, options);
     if (std::all_of(result.layers.begin(), result.layers.end(), is_empty))
         throw InputError(file.string() +

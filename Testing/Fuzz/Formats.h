@@ -14,6 +14,9 @@ inline constexpr std::array<const char*, 8> kEndings{".nii", ".nrrd", ".mha", ".
                                                      ".txt", ".nhdr", ".mhd", ".nii.gz"};
 inline constexpr std::size_t kTable = 4;  ///< the ending that is a table of names
 
+/// Bit 6 asks for vectors.
+inline bool asks_for_vectors(std::uint8_t byte) { return (byte >> 6 & 1) != 0; }
+
 /// Bit 3 asks for masks of labels, bits 4 and 5 for one of NIfTI's transforms.
 inline segmentation::ReadOptions options_of(std::uint8_t byte) {
     segmentation::ReadOptions options;

@@ -57,6 +57,15 @@ void add_own(Seeds& seeds) {
     std::string one_hot = samples::with(samples::nifti_bytes(), 40, std::int16_t{4});
     one_hot = samples::with(one_hot, 48, std::int16_t{2}).substr(0, 352);
     seeds.add(8, one_hot + std::string("\1\1\0\0\0\0\0\0\0\1\1\0\0\0\0\0", 16));
+    constexpr std::uint8_t kVectors = 64;
+    std::string vectors = samples::with(samples::nifti_bytes(), 40, std::int16_t{5});
+    vectors = samples::with(vectors, 50, std::int16_t{3}).substr(0, 352);
+    seeds.add(kVectors, vectors + std::string(24, '\1'));
+    seeds.add(kVectors | 1,
+              "NRRD0004\ntype: float\ndimension: 4\nsizes: 3 1 1 1\nencoding: ascii\n"
+              "space: RAS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+              "kinds: vector domain domain domain\n"
+              "measurement frame: (0,1,0) (1,0,0) (0,0,1)\n\n1 nan 0.5\n");
     samples::DicomSample dicom;
     for (const char* syntax : {"1.2.840.10008.1.2.1", "1.2.840.10008.1.2.1.99"}) {
         dicom.transfer_syntax = syntax;

@@ -9,6 +9,7 @@
 #include "Folder.h"
 #include "Formats.h"
 #include "Segmentation/NameTable.h"
+#include "Segmentation/ReadVectors.h"
 
 namespace {
 
@@ -29,6 +30,14 @@ void check_layer(const LabelVolume& layer, const LabelVolume& first) {
     for (const auto& [value, name] : layer.names) check(!name.name.empty(), "a name is not empty");
 }
 
+void read_vectors(const fs::path& file) {
+    const auto found = myotet::segmentation::read_vectors(file);
+    const std::size_t voxels =
+        static_cast<std::size_t>(found.size[0]) * found.size[1] * found.size[2];
+    check(voxels > 0 && found.vectors.size() == voxels, "a volume has all its vectors");
+    check(found.index_to_lps.matrix().allFinite(), "vectors lie somewhere");
+}
+
 /// With the data file that a detached header may name.
 const fs::path& folder() {
     static const bool written = [] {
@@ -43,6 +52,10 @@ const fs::path& folder() {
 void read(const fs::path& file, std::size_t ending, std::uint8_t byte) {
     if (ending == myotet::fuzz::kTable) {
         (void)myotet::segmentation::read_name_table(file);
+        return;
+    }
+    if (myotet::fuzz::asks_for_vectors(byte)) {
+        read_vectors(file);
         return;
     }
     const auto found = myotet::segmentation::read_labels(file, myotet::fuzz::options_of(byte));
