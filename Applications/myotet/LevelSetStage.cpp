@@ -143,6 +143,9 @@ TissueSets make_level_sets(const Scan& scan, const LevelSetChoices& choices,
     if (scan.surface && !choices.repair.empty())
         throw UsageError("--repair: " + scan.input.string() +
                          " is a surface; a recipe works on the tissues of a label file");
+    if (scan.surface && choices.smoothing != levelset::Smoothing::curvature)
+        throw UsageError("--smoothing: " + scan.input.string() +
+                         " is a surface, which has no voxels to hold; --smooth alone smooths it");
     if (scan.surface) return set_of_surface(scan, choices, progress);
     return choices.repair.empty() ? sets_of_labels(scan, choices, progress)
                                   : repaired_sets(scan, choices, progress);

@@ -21,12 +21,11 @@ RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& 
     facts.input = options.input.string();
     facts.input_sha256 = scan.sha256;
     for (const Tissue& tissue : sets.tissues) facts.labels.push_back(tissue.label);
-    const bool surface = scan.surface.has_value();
-    facts.options_text = {
-        {"names_from", scan.names_from.string()},
-        {"smoothing", surface ? "" : name_of(choices.smoothing)},
-        {"repair", choices.repair.string()},
-        {"input_unit", options.input_unit.empty() && surface ? "mm" : options.input_unit}};
+    const bool labels = scan.spacing.x() > 0;
+    facts.options_text = {{"names_from", scan.names_from.string()},
+                          {"smoothing", labels ? name_of(choices.smoothing) : ""},
+                          {"repair", choices.repair.string()},
+                          {"input_unit", scan.input_unit}};
     facts.options_number = {{"smooth_mm", sets.sets.smooth},
                             {"level_set_spacing_mm", sets.sets.spacing}};
     facts.gaps = scan.gaps;

@@ -8,6 +8,7 @@
 
 #include "Core/Sha256.h"
 #include "ExitCodes.h"
+#include "InputKind.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Segmentation/Census.h"
 #include "Text.h"
@@ -138,11 +139,10 @@ Scan read_label_scan(const ScanOptions& options) {
 }
 
 Scan read_surface_scan(const ScanOptions& options) {
-    if (!options.labels.empty() || !options.reading.names.empty() || options.close_gaps > 0)
-        throw UsageError("--labels, --names and --close-gaps: " + options.input.string() +
-                         " is a surface, which is one tissue; leave the options out");
+    refuse_options(label_options_given(options), options.input, "a surface, which is one tissue");
     Scan scan;
     scan.heal = options.heal;
+    scan.input_unit = options.input_unit.empty() ? "mm" : options.input_unit;
     scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
     if (!options.heal) scan.shells = count_outward_shells(*scan.surface);
     scan.tissues = {{0,
@@ -174,12 +174,12 @@ Scan read_scan(const ScanOptions& options) {
     if (!std::filesystem::is_regular_file(options.input, ignored))
         throw IoError(options.input.string() +
                       ": there is no such file; check its name and folder");
-    const bool labels = segmentation::is_label_file(options.input);
-    if (!labels && !meshfiles::is_surface_file(options.input))
+    const InputKind kind = kind_of(options.input);
+    if (kind != InputKind::labels && kind != InputKind::surface)
         throw InputError(options.input.string() +
                          ": its extension is not known; labels come as .nii .nii.gz .nrrd "
                          ".seg.nrrd .mha .mhd .dcm, closed surfaces as .obj .off .stl .ply .vtp");
-    Scan scan = labels ? read_label_scan(options) : read_surface_scan(options);
+    Scan scan = kind == InputKind::labels ? read_label_scan(options) : read_surface_scan(options);
     scan.input = options.input;
     scan.sha256 = sha256_of_file(options.input);
     return scan;

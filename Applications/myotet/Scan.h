@@ -17,8 +17,8 @@ namespace myotet::app {
 
 /// What to read and how.
 struct ScanOptions {
-    std::filesystem::path input;        ///< label file or surface
-    std::string labels;                 ///< values or names, by commas; empty: all but 0
+    std::filesystem::path input;  ///< label file or surface; for surfaces also mesh, level sets
+    std::string labels;           ///< values or names, by commas; empty: all but 0
     segmentation::ReadOptions reading;  ///< of a label file
     double close_gaps = 0;              ///< between tissues, up to this wide, mm; 0: none
     bool heal = false;                  ///< guess what an open surface encloses
@@ -48,6 +48,7 @@ struct Scan {
     bool heal = false;                        ///< the surface, which may be open
     int shells = 0;                           ///< outward closed pieces of a surface; 0: not known
     std::filesystem::path names_from;         ///< where the names come from; empty: none
+    std::string input_unit;                   ///< of a file without voxels: mm, cm, m
     std::string sha256;                       ///< of the input file
     std::vector<std::string> warnings;
 };

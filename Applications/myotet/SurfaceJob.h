@@ -16,15 +16,18 @@ namespace myotet::app {
 
 /// What `myotet surface` was asked for.
 struct SurfaceJobOptions {
-    ScanOptions scan;              ///< its input may be a mesh (.vtu) too
+    ScanOptions scan;              ///< its input may be a mesh or level sets (.vdb) too
     std::filesystem::path output;  ///< folder
     LevelSetChoices level_sets;
-    double edge_length = 0;  ///< mm; 0: as `mesh` chooses it; of a mesh: its own
+    /// mm; 0: as `mesh` chooses it, of level sets as if their samples were voxels;
+    /// of a mesh: its own.
+    double edge_length = 0;
     /// mm; 0: a quarter of it, but at least half the level sets' spacing, below
     /// which they hold no shape.
     double smallest_edge_length = 0;
-    /// "x,y,z,nx,ny,nz": the half-space behind a plane; a surface file; or a tissue
-    /// of the scan, or that the recipe makes, by name or value. Empty: none.
+    /// "x,y,z,nx,ny,nz": the half-space behind a plane; the file of a surface, a mesh
+    /// or level sets; or a tissue of the scan, or that the recipe makes, by name or
+    /// value. Empty: none.
     std::string trim;
     double trim_offset = 0;      ///< the trimming solid is grown by this, mm
     int pieces = 0;              ///< of each connected part of a tissue, the largest; 0: all
@@ -48,7 +51,7 @@ struct SurfaceReport {
     std::vector<SurfaceTissue> tissues;  ///< by layer and label value
 };
 
-/// From labels, a closed surface or a tetrahedral mesh to one well-shaped
+/// From labels, a closed surface, a tetrahedral mesh or level sets to one well-shaped
 /// triangle mesh a tissue, trimmed where asked [Teran05, sec. 11]. Throws
 /// InputError when the trim discards every tissue or none of any; else errors
 /// as run_level_set_job.

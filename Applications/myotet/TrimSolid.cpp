@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 
 #include "Core/Errors.h"
 #include "ExitCodes.h"
+#include "InputKind.h"
 #include "LevelSet/FromSurface.h"
+#include "LevelSet/ReadVdb.h"
 #include "MeshFiles/MeshFiles.h"
 
 namespace myotet::app {
@@ -29,22 +33,72 @@ std::optional<std::array<double, 6>> six_numbers(const std::string& text) {
     return numbers;
 }
 
-Field surface_field(const std::filesystem::path& file, const Frame& frame, double spacing,
-                    ProgressSink& progress) {
+/// A level set that the field keeps, and how its coordinates lie in the patient.
+struct Placed {
     std::shared_ptr<const levelset::LevelSet> phi;
+    Frame frame;
+};
+
+TriMesh whole_surface(const TetMesh& mesh) {
+    std::vector<std::int32_t> all(mesh.tets.size());
+    std::iota(all.begin(), all.end(), 0);
+    return outer_surface(mesh, all);
+}
+
+std::vector<Placed> level_sets_in(const std::filesystem::path& file, double spacing,
+                                  ProgressSink& progress) {
+    std::vector<Placed> solids;
+    const auto add = [&](levelset::LevelSet&& phi, const Frame& frame) {
+        solids.push_back({std::make_shared<const levelset::LevelSet>(std::move(phi)), frame});
+    };
+    const InputKind kind = kind_of(file);
+    if (kind == InputKind::level_set) {
+        levelset::VdbFile made = levelset::read_vdb(file);
+        for (const std::string& warning : made.warnings) progress.warn(warning);
+        for (levelset::VdbLevelSet& set : made.level_sets) add(std::move(set.phi), set.frame);
+    } else {
+        const TriMesh surface = kind == InputKind::tetrahedra
+                                    ? whole_surface(meshfiles::read_mesh(file).mesh)
+                                    : meshfiles::read_surface(file);
+        add(levelset::from_surface(surface, {.spacing = spacing}, progress), {});
+    }
+    return solids;
+}
+
+/// All that the file holds as one solid, in the local coordinates of `frame`.
+Field file_field(const std::filesystem::path& file, const Frame& frame, double spacing,
+                 ProgressSink& progress) {
+    std::vector<Placed> solids;
     try {
-        phi = std::make_shared<const levelset::LevelSet>(
-            levelset::from_surface(meshfiles::read_surface(file), {.spacing = spacing}, progress));
-    } catch (const InputError& error) {  // which does not know the file
+        solids = level_sets_in(file, spacing, progress);
+    } catch (const InputError& error) {  // which may not know the file
         throw InputError("--trim " + file.string() + ": " + error.what());
     }
-    return [phi, frame](const Vec3& local) {
-        const levelset::Sample s = phi->sample(frame.to_lps(local));
-        return FieldSample{s.value, frame.rotation.transpose() * s.gradient};
+    return [solids = std::move(solids), frame](const Vec3& local) {
+        const Vec3 lps = frame.to_lps(local);
+        FieldSample nearest{std::numeric_limits<double>::infinity(), Vec3::UnitX()};
+        for (const Placed& solid : solids) {
+            const levelset::Sample s = solid.phi->sample(solid.frame.to_local(lps));
+            if (s.value >= nearest.value) continue;
+            nearest = {s.value, frame.rotation.transpose() * (solid.frame.rotation * s.gradient)};
+        }
+        return nearest;
     };
 }
 
 }  // namespace
+
+TriMesh outer_surface(const TetMesh& mesh, std::span<const std::int32_t> tets) {
+    TetMesh part;
+    part.points = mesh.points;
+    const std::vector<Vec3>& p = mesh.points;
+    for (const std::int32_t number : tets) {
+        Tet t = mesh.tets[number];
+        if (signed_volume(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) < 0) std::swap(t[0], t[1]);
+        part.tets.push_back(t);
+    }
+    return boundary_surface(part);
+}
 
 Field field_of(const levelset::LevelSet& phi) {
     return [&phi](const Vec3& p) {
@@ -85,11 +139,13 @@ TrimSolid read_trim(const std::string& text, std::span<const Tissue> tissues) {
     if (trim.tissue) return trim;
     trim.file = text;
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(trim.file, ignored) ||
-        !meshfiles::is_surface_file(trim.file))
+    const InputKind kind = kind_of(trim.file);
+    if (!std::filesystem::is_regular_file(trim.file, ignored) || kind == InputKind::labels ||
+        kind == InputKind::unknown)
         throw UsageError("--trim " + text +
-                         ": is neither x,y,z,nx,ny,nz nor a tissue of the scan nor a surface "
-                         "file (.obj .off .stl .ply .vtp)");
+                         ": is neither x,y,z,nx,ny,nz nor a tissue of the scan nor the file of a "
+                         "surface (.obj .off .stl .ply .vtp), a mesh (.vtu .msh .feb .inp .bdf "
+                         ".nas .xdmf .mesh) or a level set (.vdb)");
     return trim;
 }
 
@@ -101,7 +157,7 @@ Field trim_field(const TrimSolid& trim, const TissueSets& sets, double spacing,
         return surface::half_space(frame.to_local({p[0], p[1], p[2]}),
                                    frame.rotation.transpose() * Vec3(p[3], p[4], p[5]));
     }
-    if (!trim.tissue) return surface_field(trim.file, frame, spacing, progress);
+    if (!trim.tissue) return file_field(trim.file, frame, spacing, progress);
     std::vector<const levelset::LevelSet*> phis;
     for (const levelset::Region& region : sets.sets.regions)
         if (belongs(region, *trim.tissue)) phis.push_back(&region.phi);

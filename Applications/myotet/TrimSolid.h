@@ -10,6 +10,10 @@
 
 namespace myotet::app {
 
+/// The surface of some of a mesh's tetrahedra, outward whichever way each is
+/// numbered.
+[[nodiscard]] TriMesh outer_surface(const TetMesh& mesh, std::span<const std::int32_t> tets);
+
 /// phi as the Surface room sees it; phi must outlive the field.
 [[nodiscard]] surface::Field field_of(const levelset::LevelSet& phi);
 
@@ -21,7 +25,7 @@ namespace myotet::app {
 struct TrimSolid {
     std::optional<std::array<double, 6>> plane;  ///< x, y, z, nx, ny, nz: LPS, mm
     std::optional<Tissue> tissue;                ///< of the scan or of its recipe
-    std::filesystem::path file;                  ///< else: a surface
+    std::filesystem::path file;                  ///< else: a surface, a mesh or level sets
 };
 
 /// The tissue that a text names, or whose label value it is.

@@ -19,7 +19,7 @@ void add_shape_options(CLI::App& command, SurfaceJobOptions& job) {
     command
         .add_option("--edge-length", job.edge_length,
                     "edge length where the surface is flat enough, mm (default: as myotet mesh; "
-                    "of a mesh: its own)")
+                    "of a mesh: its own; of a level set: two of its samples)")
         ->check(kPositive)
         ->type_name("MM");
     command
@@ -30,10 +30,10 @@ void add_shape_options(CLI::App& command, SurfaceJobOptions& job) {
         ->type_name("MM");
     command
         .add_option("--trim", job.trim,
-                    "discard what lies inside this solid: a closed surface (file), a tissue of "
-                    "the scan or of --repair's recipe (name or value), or x,y,z,nx,ny,nz, all "
-                    "behind the plane through "
-                    "(x,y,z) whose normal (nx,ny,nz) points to what is kept")
+                    "discard what lies inside this solid: a closed surface, a mesh or a level set "
+                    "(file), a tissue of the scan or of --repair's recipe (name or value), or "
+                    "x,y,z,nx,ny,nz, all behind the plane through (x,y,z) whose normal (nx,ny,nz) "
+                    "points to what is kept")
         ->type_name("SOLID");
     command.add_option("--trim-offset", job.trim_offset, "grow the trimming solid by this, mm")
         ->type_name("MM");
@@ -47,6 +47,10 @@ void add_shape_options(CLI::App& command, SurfaceJobOptions& job) {
 
 void add_options(CLI::App& command, Arguments& a) {
     add_scan_options(command, a.job.scan);
+    command.get_option("INPUT")->description(
+        "labels (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd, DICOM SEG .dcm), a closed surface (.obj "
+        ".off .stl .ply .vtp), a tetrahedral mesh (.vtu .msh .feb .inp .bdf .nas .xdmf .mesh) or a "
+        "level set (.vdb)");
     command.add_option("-o,--output", a.job.output, "folder for the results")
         ->required()
         ->type_name("FOLDER");
@@ -94,8 +98,8 @@ ExitCode run(const Arguments& a) {
 void add_surface(CLI::App& program, ExitCode& code) {
     CLI::App* command = program.add_subcommand(
         "surface",
-        "well-shaped triangle meshes of a scan's tissues, a closed surface or a mesh (.vtu), "
-        "trimmed where asked");
+        "well-shaped triangle meshes of a scan's tissues, a closed surface, a tetrahedral mesh or "
+        "a level set, trimmed where asked");
     const auto arguments = std::make_shared<Arguments>();
     add_options(*command, *arguments);
     command->callback([arguments, &code] { code = run(*arguments); });

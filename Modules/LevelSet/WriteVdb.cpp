@@ -79,7 +79,7 @@ void replace_identifier(std::string& bytes) {
 
 std::string serialised(const openvdb::GridPtrVec& grids, const std::filesystem::path& temporary) {
     openvdb::io::File file(temporary.string());
-    file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
+    file.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);  // level sets are never zipped
     file.write(grids);
     file.close();
     std::ifstream in(temporary, std::ios::binary);

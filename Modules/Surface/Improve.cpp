@@ -73,24 +73,6 @@ bool try_place(Fans& fans, const Guide& guide, std::int32_t v, const Vec3& at, d
     return true;
 }
 
-/// Pattern search: steps that help are repeated, then halved.
-bool move_point(Fans& fans, const Guide& guide, std::int32_t v) {
-    double worst = worst_around(fans, guide, v);
-    double step = kFirstStep * fans.sizes[v];
-    bool moved = false;
-    for (int move = 0; move < kMovesOfPoint && step > kLastStep * fans.sizes[v]; ++move) {
-        bool better = false;
-        for (const Vec3& direction : directions_at(fans, v))
-            if (try_place(fans, guide, v, fans.points[v] + step * direction, worst)) {
-                better = true;
-                break;
-            }
-        moved |= better;
-        if (!better) step /= 2;
-    }
-    return moved;
-}
-
 bool flip_if_better(Fans& fans, const Guide& guide, std::int32_t a, std::int32_t b) {
     const EdgeStar star = edge_star(fans, a, b);
     if (!star.inner()) return false;
@@ -128,7 +110,7 @@ bool move_points(Fans& fans, const Guide& guide, double cosine) {
     for (std::size_t t = 0; t < fans.triangles.size(); ++t)
         if (fans.alive(t) && (sharpest(fans, fans.triangles[t]) > cosine ||
                               !faces_outward(fans, guide.phi, fans.triangles[t])))
-            for (const std::int32_t v : fans.triangles[t]) moved |= move_point(fans, guide, v);
+            for (const std::int32_t v : fans.triangles[t]) moved |= improve_point(fans, guide, v);
     return moved;
 }
 
@@ -156,7 +138,7 @@ bool collapse_if_better(Fans& fans, const Guide& guide, std::int32_t a, std::int
     if (!(worst_after_collapse(fans, a, b, at->point) < now - kGain)) return false;
     collapse(fans, a, b, star);
     set_corner(fans, b, *at);
-    move_point(fans, guide, b);
+    improve_point(fans, guide, b);
     return true;
 }
 
@@ -199,6 +181,24 @@ void settle(Fans& fans, const Guide& guide, const AngleGoal& goal, double cosine
 }
 
 }  // namespace
+
+bool improve_point(Fans& fans, const Guide& guide, std::int32_t v) {
+    double worst = worst_around(fans, guide, v);
+    // Steps that help are repeated, then halved.
+    double step = kFirstStep * fans.sizes[v];
+    bool moved = false;
+    for (int move = 0; move < kMovesOfPoint && step > kLastStep * fans.sizes[v]; ++move) {
+        bool better = false;
+        for (const Vec3& direction : directions_at(fans, v))
+            if (try_place(fans, guide, v, fans.points[v] + step * direction, worst)) {
+                better = true;
+                break;
+            }
+        moved |= better;
+        if (!better) step /= 2;
+    }
+    return moved;
+}
 
 void improve_angles(Fans& fans, const Guide& guide, CrossingGuard& guard, const AngleGoal& goal) {
     const double cosine = std::cos(goal.smallest_deg * std::numbers::pi / 180);

@@ -12,6 +12,10 @@ struct AngleGoal {
     int rounds = 12;           ///< at most
 };
 
+/// Moves a point by pattern search to where the smallest angle about it is
+/// largest and the least is wrong; whether it moved.
+bool improve_point(Fans& fans, const Guide& guide, std::int32_t v);
+
 /// Makes the smallest angles larger, on the level sets: flips edges where that
 /// helps the worse of two triangles, moves points by pattern search for the
 /// largest smallest angle around them [Teran05, sec. 8, in two dimensions], and

@@ -6,6 +6,7 @@
 
 #include "Core/Errors.h"
 #include "Surface/Improve.h"
+#include "Surface/TurnBack.h"
 
 namespace myotet::surface {
 namespace {
@@ -68,6 +69,7 @@ Result make_surface(const TriMesh& start, const Guide& guide, const Options& opt
         progress.check();
     }
     improve_angles(fans, guide, guard);
+    turn_back(fans, guide, guard);
     if (result.cut == Cut::some) guard.run([&] { land_rim(fans, guide); });
     result.mesh = to_mesh(fans);
     result.quality = measure(result.mesh, guide);
