@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,26 @@ namespace myotet::meshfiles {
 /// 64-bit headers. The bytes depend on the arguments alone. Throws IoError.
 void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& label_names,
                const std::filesystem::path& file);
+
+/// Numbers at points or at tetrahedra.
+struct NamedArray {
+    std::string name;
+    int components = 1;          ///< of each; 3: a vector, 9: a tensor row by row
+    std::vector<double> values;  ///< components of the first, then of the second, ...
+};
+
+/// What a .vtu tells besides its mesh, such as one moment of a simulation.
+struct MeshArrays {
+    std::vector<NamedArray> points;  ///< at mesh.points
+    std::vector<NamedArray> cells;   ///< at mesh.tets
+    std::optional<double> time;      ///< field data TimeValue, s
+};
+
+/// The same with more arrays, as 64-bit numbers and in their order, after `label`.
+/// Throws MeshError when an array has no name or another's, has not one value a
+/// component, or holds a number that is not finite; IoError.
+void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& label_names,
+               const MeshArrays& arrays, const std::filesystem::path& file);
 
 /// Writes .vtp: triangles; field data and form as write_vtu. Throws IoError.
 void write_vtp(const TriMesh& surface, const std::map<std::int32_t, std::string>& label_names,

@@ -2,11 +2,13 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
@@ -14,6 +16,10 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "Core/AtomicFile.h"
 #include "Core/Errors.h"
@@ -74,6 +80,41 @@ void add_facts(vtkDataSet& data, const std::map<std::int32_t, std::string>& labe
     data.GetFieldData()->AddArray(names);
 }
 
+/// Throws MeshError unless `arrays` can stand at `count` points or cells.
+void check_arrays(const std::vector<NamedArray>& arrays, std::size_t count,
+                  std::set<std::string> taken, const std::filesystem::path& file) {
+    for (const NamedArray& array : arrays) {
+        const auto refuse = [&](const std::string& why) {
+            throw MeshError(file.string() + ": the array '" + array.name + "' " + why);
+        };
+        if (array.name.empty() || !taken.insert(array.name).second)
+            refuse("has no name or one that is taken; give each a name of its own");
+        if (array.components < 1 ||
+            array.values.size() != count * static_cast<std::size_t>(array.components))
+            refuse("has " + std::to_string(array.values.size()) + " values, but " +
+                   std::to_string(array.components) + " for each of " + std::to_string(count) +
+                   " are needed");
+        const auto bad = std::ranges::find_if_not(
+            array.values, [](double value) { return std::isfinite(value); });
+        if (bad != array.values.end())
+            refuse("holds " + std::to_string(*bad) + " at " +
+                   std::to_string((bad - array.values.begin()) / array.components) +
+                   " (from 0), which is not a finite number");
+    }
+}
+
+void add_arrays(vtkFieldData& data, const std::vector<NamedArray>& arrays) {
+    for (const NamedArray& array : arrays) {
+        vtkNew<vtkDoubleArray> numbers;
+        numbers->SetName(array.name.c_str());
+        numbers->SetNumberOfComponents(array.components);
+        numbers->SetNumberOfTuples(static_cast<vtkIdType>(
+            array.values.size() / static_cast<std::size_t>(array.components)));
+        std::ranges::copy(array.values, numbers->GetPointer(0));
+        data.AddArray(numbers);
+    }
+}
+
 template <class Writer>
 void write_xml(vtkDataSet& data, const std::filesystem::path& file) {
     write_atomically(file, [&](const std::filesystem::path& temporary) {
@@ -98,15 +139,25 @@ void write_xml(vtkDataSet& data, const std::filesystem::path& file) {
 
 void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& label_names,
                const std::filesystem::path& file) {
+    write_vtu(mesh, label_names, MeshArrays{}, file);
+}
+
+void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& label_names,
+               const MeshArrays& arrays, const std::filesystem::path& file) {
     if (!mesh.labels.empty() && mesh.labels.size() != mesh.tets.size())
         throw MeshError(file.string() + ": the mesh has " + std::to_string(mesh.labels.size()) +
                         " labels for " + std::to_string(mesh.tets.size()) +
                         " tetrahedra; give one label each or none");
+    check_arrays(arrays.points, mesh.points.size(), {}, file);
+    check_arrays(arrays.cells, mesh.tets.size(), {"label"}, file);
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(make_points(mesh.points));
     grid->SetCells(VTK_TETRA, make_cells(mesh.tets));
     set_labels(*grid, mesh);
+    add_arrays(*grid->GetPointData(), arrays.points);
+    add_arrays(*grid->GetCellData(), arrays.cells);
     add_facts(*grid, label_names);
+    if (arrays.time) add_arrays(*grid->GetFieldData(), {{"TimeValue", 1, {*arrays.time}}});
     write_xml<vtkXMLUnstructuredGridWriter>(*grid, file);
 }
 

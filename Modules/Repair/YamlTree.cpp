@@ -20,7 +20,7 @@ constexpr int kDeepest = 12;
 constexpr int kMostNodes = 200'000;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& why) {
-    throw InputError(file.string() + ", line " + std::to_string(line) + ": " + why);
+    throw InputError(file.string() + ":" + std::to_string(line) + ": " + why);
 }
 
 struct Converter {
@@ -29,9 +29,14 @@ struct Converter {
 
     YamlTree convert(const YAML::Node& node, int depth) {
         YamlTree tree;
-        tree.line = node.Mark().line + 1;
-        if (depth > kDeepest) refuse(file, tree.line, "nested too deep for a recipe");
-        if (++nodes > kMostNodes) refuse(file, tree.line, "too large for a recipe");
+        tree.line = std::max(node.Mark().line, 0) + 1;
+        if (depth > kDeepest)
+            refuse(file, tree.line,
+                   "is nested too deep; a recipe or a scene needs " + std::to_string(kDeepest) +
+                       " levels at most");
+        if (++nodes > kMostNodes)
+            refuse(file, tree.line,
+                   "is too large for a recipe or a scene; keep tables in files of their own");
         if (node.IsScalar()) {
             tree.kind = YamlTree::Kind::scalar;
             tree.text = node.Scalar();
@@ -52,7 +57,10 @@ struct Converter {
         if (std::any_of(map.entries.begin(), map.entries.end(),
                         [&](const auto& entry) { return entry.first == name; }))
             refuse(file, line, "'" + name + "' stands twice; write it once");
-        map.entries.emplace_back(name, convert(value, depth + 1));
+        YamlTree tree = convert(value, depth + 1);
+        tree.key_line = line;
+        if (tree.kind == YamlTree::Kind::nothing) tree.line = line;
+        map.entries.emplace_back(name, std::move(tree));
     }
 };
 
@@ -65,7 +73,7 @@ std::string read_text(const std::filesystem::path& file) {
     text.resize(static_cast<std::size_t>(in.gcount()));
     if (text.size() > kMostBytes)
         throw InputError(file.string() +
-                         ": is larger than 1 MB; a recipe is a short text, is this one?");
+                         ": is larger than 1 MB; recipes and scenes are short texts, is this one?");
     return text;
 }
 

@@ -16,10 +16,11 @@ struct YamlTree {
     std::string text;                                       ///< of a scalar
     std::vector<YamlTree> items;                            ///< of a list
     std::vector<std::pair<std::string, YamlTree>> entries;  ///< of a map, in the file's order
+    int key_line = 0;                                       ///< of the key it is the value of
 };
 
 /// Throws IoError when the file cannot be read, InputError with the line when
-/// it is no YAML, is nested deeper or larger than a recipe can be, or names a
+/// it is no YAML, is nested deeper or larger than recipes and scenes are, or names a
 /// key twice.
 [[nodiscard]] YamlTree read_yaml(const std::filesystem::path& file);
 
