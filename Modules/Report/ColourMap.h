@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Report/Picture.h"
+
+namespace myotet::report {
+
+/// A colour for a share of a range, from dark violet at 0 to yellow at 1: straight lines
+/// between nine colours of viridis (S. van der Walt and N. Smith 2015, matplotlib), whose
+/// lightness grows evenly, so that it also tells the order in grey and to the colour-blind.
+/// Shares beyond [0, 1] have the colour of the nearer end. `share` is a number.
+[[nodiscard]] Colour map_colour(double share);
+
+}  // namespace myotet::report
