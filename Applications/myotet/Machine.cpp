@@ -4,9 +4,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <string>
+
+#include "Core/Errors.h"
 
 namespace myotet::app {
 namespace {
@@ -46,6 +49,20 @@ double group_available() {
 double peak_memory() { return static_cast<double>(usage_of_self().ru_maxrss) * kKibi; }
 
 double available_memory() { return std::min(system_available(), group_available()); }
+
+std::filesystem::path data_folder() {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path program = fs::read_symlink("/proc/self/exe", none);
+    const char* named = std::getenv("MYOTET_DATA");
+    for (const fs::path& folder :
+         {fs::path(named ? named : ""), program.parent_path().parent_path() / "share" / "myotet",
+          fs::path(MYOTET_DATA_DIR)})
+        if (!folder.empty() && fs::exists(folder / "materials", none)) return folder;
+    throw IoError(
+        "the folder of materials that comes with Myotet is not where it was installed; name the "
+        "one that holds 'materials' in the environment variable MYOTET_DATA");
+}
 
 double processor_seconds() {
     const rusage usage = usage_of_self();

@@ -89,6 +89,14 @@ TEST_F(Refusals, OptionsThatDoNotFitTheInput) {
     EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--close-gaps", "1"}),
                 HasSubstr("--close-gaps"));
     EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--repair", "r.yaml"}), HasSubstr("--repair"));
+    EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--one-hot", "--orientation", "qform"}),
+                HasSubstr("--orientation and --one-hot: "));
+    EXPECT_THAT(refused(kUsage, folder_ / "a.off", {"--smoothing", "none"}),
+                HasSubstr("--smoothing: "));
+    const Ran level_set = testing::run_program(
+        MYOTET_PROGRAM, {"levelset", folder_ / "a.off", "-o", out(), "--one-hot"});
+    EXPECT_EQ(level_set.code, kUsage);
+    EXPECT_THAT(level_set.err, HasSubstr("--one-hot: "));
     EXPECT_THAT(refused(kUsage, scan(), {"--input-unit", "cm"}), HasSubstr("--input-unit"));
     EXPECT_THAT(refused(kUsage, scan(), {"--heal"}), HasSubstr("--heal"));
 }

@@ -128,6 +128,95 @@ TEST_F(SurfaceJob, AMeshIsAnInputToo) {
     EXPECT_EQ(t["name"], "sphere") << "as the mesh says, not its file";
 }
 
+TEST_F(SurfaceJob, EveryFormatOfTetrahedraIsAnInputAndTrims) {
+    const fs::path ball = save("sphere");
+    const fs::path tets = folder_ / "tets";
+    const Ran meshed = testing::run_program(
+        MYOTET_PROGRAM, {"mesh", ball, "-o", tets, "--edge-length", "6", "--quiet", "--quality",
+                         "draft", "--format", "vtu,msh,feb,inp,bdf,nas,xdmf,mesh"});
+    ASSERT_EQ(meshed.code, 0) << meshed.err;
+    std::size_t triangles = 0;
+    for (const char* format : {"vtu", "msh", "feb", "inp", "bdf", "nas", "xdmf", "mesh"}) {
+        SCOPED_TRACE(format);
+        const fs::path file = tets / (std::string("1_sphere.") + format);
+        const Json t = tissue(file);
+        EXPECT_EQ(t["euler_characteristic"], 2);
+        EXPECT_EQ(t["name"], "sphere");
+        // .vtu keeps all digits of a coordinate, other formats most.
+        if (triangles == 0) triangles = t["triangles"].get<std::size_t>();
+        EXPECT_NEAR(t["triangles"].get<double>() / static_cast<double>(triangles), 1, 0.01);
+    }
+    const Json bitten = tissue(save("torus"), {"--trim", tets / "1_sphere.msh"});
+    EXPECT_EQ(bitten["boundary_loops"], 2);
+    EXPECT_EQ(bitten["euler_characteristic"], 0);
+}
+
+TEST_F(SurfaceJob, LevelSetsAreInputsAndTrim) {
+    const auto level_set = [&](const char* phantom) {
+        const Ran ran = testing::run_program(
+            MYOTET_PROGRAM, {"levelset", save(phantom), "-o", folder_ / "sets", "--quiet"});
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        return folder_ / "sets" / (std::string("1_") + phantom + ".vdb");
+    };
+    const fs::path torus = level_set("torus"), ball = level_set("sphere");
+    // The way over the file holds the same samples; only the far field is made anew.
+    constexpr double kSame = 1e-3;
+    for (const std::vector<std::string>& trim :
+         {std::vector<std::string>{}, {"--trim", "0,0,0,1,0.1,0"}, {"--trim", ball.string()}}) {
+        SCOPED_TRACE(trim.empty() ? "" : trim.back());
+        const Json direct = tissue(save("torus"), trim), over_file = tissue(torus, trim);
+        EXPECT_EQ(over_file["name"], "torus");
+        EXPECT_EQ(over_file["label"], direct["label"]);
+        for (const char* count : {"euler_characteristic", "boundary_loops", "components_out"})
+            EXPECT_EQ(over_file[count], direct[count]) << count;
+        for (const char* measure : {"area_mm2", "triangles"})
+            EXPECT_NEAR(over_file[measure].get<double>() / direct[measure].get<double>(), 1, kSame)
+                << measure;
+    }
+    // As a trimming solid, against the tissue's own surface.
+    const Json by_set = tissue(save("torus"), {"--trim", ball});
+    const Json of_ball = tissue(save("sphere"));
+    const fs::path stl = folder_ / "ball.stl";
+    fs::rename(out() / of_ball["files"][0].get<std::string>(), stl);
+    const Json by_surface = tissue(save("torus"), {"--trim", stl});
+    // Chords of the ball's surface at 4 mm lie a tenth of a millimetre inside it.
+    EXPECT_NEAR(by_set["area_mm2"].get<double>() / by_surface["area_mm2"].get<double>(), 1, 0.02);
+    EXPECT_EQ(by_set["euler_characteristic"], by_surface["euler_characteristic"]);
+}
+
+TEST_F(SurfaceJob, OptionsThatMeanNothingForTheInputAreRefused) {
+    const fs::path ball = save("sphere");
+    ASSERT_EQ(surface(ball).code, 0);
+    fs::rename(out() / "1_sphere.stl", folder_ / "ball.stl");
+    ASSERT_EQ(testing::run_program(MYOTET_PROGRAM, {"mesh", ball, "-o", out(), "--quiet"}).code, 0);
+    fs::rename(out() / "1_sphere.vtu", folder_ / "ball.vtu");
+    ASSERT_EQ(testing::run_program(MYOTET_PROGRAM, {"levelset", ball, "-o", out(), "--quiet"}).code,
+              0);
+    fs::rename(out() / "1_sphere.vdb", folder_ / "ball.vdb");
+    const auto refused = [&](const char* input, const std::vector<std::string>& more) {
+        const Ran ran = surface(folder_ / input, more);
+        EXPECT_EQ(ran.code, 2) << input << " " << more[0];
+        EXPECT_THAT(ran.err, HasSubstr("myotet: error: " + more[0] + ": ")) << input;
+        EXPECT_FALSE(fs::exists(out() / "report.json"));
+    };
+    for (const char* input : {"ball.stl", "ball.vtu", "ball.vdb"}) {
+        refused(input, {"--orientation", "sform"});
+        refused(input, {"--one-hot"});
+        refused(input, {"--labels", "1"});
+        refused(input, {"--names", "names.txt"});
+        refused(input, {"--close-gaps", "1"});
+        refused(input, {"--repair", "recipe.yaml"});
+        refused(input, {"--smoothing", "none"});
+    }
+    refused("ball.vtu", {"--heal"});
+    refused("ball.vtu", {"--input-unit", "cm"});
+    refused("ball.vdb", {"--heal"});
+    refused("ball.vdb", {"--smooth", "1"});
+    refused("ball.vdb", {"--spacing", "1"});
+    EXPECT_THAT(surface(folder_ / "ball.vdb", {"--input-unit", "cm"}).err,
+                HasSubstr("says its unit itself"));
+}
+
 TEST_F(SurfaceJob, RefusalsSayWhy) {
     const fs::path ball = save("sphere");
     const auto expect = [&](std::vector<std::string> more, int code, const char* word) {
@@ -141,7 +230,12 @@ TEST_F(SurfaceJob, RefusalsSayWhy) {
     expect({"--trim", "0,0,90,0,0,1"}, 3, "discards everything");
     expect({"--trim", "0,0,-90,0,0,1"}, 3, "discards nothing");
     expect({"--trim", write("empty.stl", "solid a\nendsolid a\n")}, 3, "empty.stl");
+    expect({"--trim", write("cut.vdb", " BDV")}, 3, "cut.vdb: is no OpenVDB file");
+    expect({"--trim", write("cut.msh", "$MeshFormat\n")}, 3, "cut.msh");
     expect({"--format", "step"}, 2, "--format");
+    const Ran unknown = surface(write("scan.docx", "PK"));
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, HasSubstr("level sets as .vdb"));
 }
 
 }  // namespace
