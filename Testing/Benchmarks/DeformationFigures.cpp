@@ -12,6 +12,7 @@
 
 #include "Dynamics/ElasticBody.h"
 #include "Dynamics/QuasiStatic.h"
+#include "Elasticity/LinearTet.h"
 #include "Elasticity/Materials.h"
 #include "MeshFigures.h"
 #include "Support/AnalyticLevelSet.h"
