@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds Myotet, makes a phantom of an arm and meshes it. May be run again.
+# Builds Myotet, makes a phantom of an arm, meshes it and makes its muscles contract.
+# May be run again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source CMake/install-packages.sh
@@ -11,6 +12,7 @@ cmake --build --preset release --target myotet
 myotet=build/release/bin/myotet
 "$myotet" phantom arm -o results/arm.nii.gz
 "$myotet" mesh results/arm.nii.gz -o results/arm
+"$myotet" contract Data/scenes/isometric.yaml -o results/isometric
 
 cat <<END
 
@@ -19,6 +21,10 @@ tissues in a table beside it. Its meshes are in the folder results/arm:
   <label>_<name>.vtu   the tissue in tetrahedra, for simulation and ParaView
   <label>_<name>.stl   its surface, for 3D Slicer, MeshLab or Blender
   report.json          what each mesh is worth
-To look at them: paraview results/arm/*.vtu   (then press Apply)
+Its biceps and triceps, which contract and relax, are in results/isometric:
+  pictures/contraction.png   the whole of it on one sheet
+  contraction.pvd            each moment, for ParaView
+  history.csv                forces, lengths, volumes
+To look at the meshes: paraview results/arm/*.vtu   (then press Apply)
 To mesh your own scan: $myotet mesh SCAN.nii.gz -o FOLDER
 END
