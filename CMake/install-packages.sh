@@ -11,6 +11,7 @@ myotet_packages=(
   libsuitesparse-dev libopenblas-dev
   libvtk9-dev libhdf5-dev libpugixml-dev
   libpng-dev
+  libsimbody-dev libceres-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )

@@ -79,7 +79,7 @@ Box box_of_run(const contraction::Scene& scene, const contraction::Model& model,
         for (std::size_t i = 0; i <= outputs; ++i) {
             const double time =
                 std::min(scene.time.end, static_cast<double>(i) * scene.output.every);
-            const contraction::Pose pose = contraction::pose_at(scene.bones[b].motion, time);
+            const Pose pose = contraction::pose_at(scene.bones[b].motion, time);
             for (const Vec3& p : bones[b].points) box.include(pose(p));
         }
     const Vec3 room = Vec3::Constant(kRoomToBulge * box.diagonal());

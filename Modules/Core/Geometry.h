@@ -40,4 +40,23 @@ struct Frame {
     }
 };
 
+/// A rigid motion or place: a point that is at x at rest, or in a body's own
+/// frame, is at rotation * x + translation.
+struct Pose {
+    Mat3 rotation = Mat3::Identity();  ///< orthonormal, right-handed
+    Vec3 translation = Vec3::Zero();   ///< mm
+
+    [[nodiscard]] Vec3 operator()(const Vec3& x) const { return rotation * x + translation; }
+    [[nodiscard]] Vec3 to_rest(const Vec3& y) const {
+        return rotation.transpose() * (y - translation);
+    }
+    [[nodiscard]] Pose inverse() const {
+        return {rotation.transpose(), -(rotation.transpose() * translation)};
+    }
+    /// First the other, then this.
+    [[nodiscard]] Pose operator*(const Pose& first) const {
+        return {rotation * first.rotation, (*this)(first.translation)};
+    }
+};
+
 }  // namespace myotet

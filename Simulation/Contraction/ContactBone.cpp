@@ -32,7 +32,7 @@ BoneContact::BoneContact(ContactNodes nodes, const std::vector<Vec3>& rest, Cont
     curvature_.assign(gap_.size(), Mat3::Zero());
 }
 
-void BoneContact::set_pose(const BonePose& pose) {
+void BoneContact::set_pose(const Pose& pose) {
     const Mat3& R = pose.rotation;
     if (!((R.transpose() * R - Mat3::Identity()).norm() <= kOrthonormal && R.determinant() > 0))
         throw InputError("the rotation of a bone's pose has the determinant " +

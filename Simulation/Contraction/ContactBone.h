@@ -3,7 +3,6 @@
 
 #include "Contraction/Contact.h"
 #include "Contraction/ContactField.h"
-#include "Contraction/ContactPose.h"
 #include "Dynamics/Potential.h"
 
 namespace myotet::contraction {
@@ -32,7 +31,7 @@ public:
 
     /// Where the bone is from the next move_to on. Throws InputError when the rotation is
     /// none.
-    void set_pose(const BonePose& pose);
+    void set_pose(const Pose& pose);
 
     [[nodiscard]] double move_to(const dynamics::NodeVectors& x) override;
     void add_forces(dynamics::NodeVectors& forces) const override;
@@ -50,7 +49,7 @@ private:
     ContactNodes nodes_;
     ContactField bone_;
     PenaltyLaw law_;
-    BonePose pose_;
+    Pose pose_;
     std::vector<double> gap_;              // a node, what overlaps at rest forgiven
     std::vector<ContactTouch> touch_;      // a node
     mutable std::vector<double> settled_;  // press at the last stiffness, a node

@@ -21,14 +21,6 @@ struct Motion {
     std::vector<KeyFrame> keys;
 };
 
-/// A rigid motion: a point at rest x is at rotation * x + translation.
-struct Pose {
-    Mat3 rotation = Mat3::Identity();
-    Vec3 translation = Vec3::Zero();  ///< mm
-
-    [[nodiscard]] Vec3 operator()(const Vec3& rest) const { return rotation * rest + translation; }
-};
-
 /// The pose at a key.
 [[nodiscard]] Pose pose_of(const KeyFrame& key);
 

@@ -18,8 +18,8 @@ using elasticity::OneLaw;
 using test::add_scaled;
 using test::NodeVectors;
 
-BonePose tilted() {
-    BonePose pose;
+Pose tilted() {
+    Pose pose;
     pose.rotation = Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()).toRotationMatrix();
     pose.translation = {3, -4, 5};
     return pose;
@@ -30,7 +30,7 @@ struct Around {
     static constexpr double kRadius = 5;
     ContactNodes nodes;
     NodeVectors rest, x;
-    BonePose pose = tilted();
+    Pose pose = tilted();
 
     Around() {
         for (const Vec3& d : test::random_vectors(60, 1, 3)) {
@@ -116,7 +116,7 @@ TEST(ContactBone, OverlapAtRestIsForgivenAndNoMore) {
 
 TEST(ContactBone, RefusesAPoseThatStretches) {
     BoneContact contact = Around().contact();
-    BonePose pose;
+    Pose pose;
     pose.rotation *= 1.01;
     EXPECT_THROW(contact.set_pose(pose), InputError);
     pose.rotation = -Mat3::Identity();
