@@ -35,7 +35,7 @@ Prepared prepare(const ContractJobOptions& options, ContractReport& report,
     report.scene = options.scene.string();
     report.title = made.scene.title;
     report.output = options.output.string();
-    report.fingerprint = contraction::fingerprint(made.scene);
+    report.fingerprint = made.model.fingerprint;
     report.end = made.scene.time.end;
     report.step = made.scene.time.step;
     report.threads = thread_count();
@@ -71,6 +71,8 @@ ContractReport run_contract_job(const ContractJobOptions& options, ProgressSink&
                                     .resume = options.resume,
                                     .checkpoint_every = options.checkpoint_every};
     double drawing = 0;
+    if (options.pictures && !options.resume)
+        contraction::remove_numbered(options.output / "pictures", ".png");
     const Box fit = box_of_run(prepared.scene, prepared.model, prepared.bones);
     if (options.pictures)
         running.watch = [&](const contraction::Moment& frame, std::span<const TriMesh> bones,

@@ -47,7 +47,7 @@ ExitCode tell_end(const ContractReport& report) {
     }
     log_error(report.run.message);
     log_info("what was reached is in " + report.output +
-             (report.run.interrupted ? "; go on with --resume" : ""));
+             (report.run.resumable ? "; go on with --resume" : ""));
     return report.run.interrupted ? ExitCode::interrupted : ExitCode::not_converged;
 }
 

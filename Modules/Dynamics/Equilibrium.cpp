@@ -233,6 +233,9 @@ EquilibriumSummary Equilibrium::find(NodeVectors& x) {
         summary.converged = summary.residual <= options_.tolerance && watch.allows(summary.energy);
         summary.message = "forces balance";
         if (summary.converged) return summary;
+        summary.stopped = options_.stop && options_.stop();
+        summary.message = "stopped";
+        if (summary.stopped) return summary;
         summary.message = "out of iterations";
         if (summary.iterations == options_.iterations) return summary;
 

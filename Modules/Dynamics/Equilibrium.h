@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "Dynamics/LinearSolver.h"
@@ -17,12 +18,14 @@ struct EquilibriumOptions {
     int iterations = 40;           ///< of Newton's method, at most
     int linear_iterations = 2000;  ///< of conjugate gradients in each, at most
     LinearMethod linear_method = LinearMethod::automatic;
+    std::function<bool()> stop;  ///< asked before each iteration; empty: never
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
 
 struct EquilibriumSummary {
     bool converged = false;
+    bool stopped = false;  ///< as options asked for
     std::string message = "not run";
     int iterations = 0;             ///< of Newton's method
     int indefinite_iterations = 0;  ///< of those, where the energy curved downwards
@@ -73,6 +76,9 @@ public:
     /// Forces of the potentials on all nodes where they stand, N: nothing on free nodes
     /// in equilibrium; on held ones, minus what holds them.
     [[nodiscard]] NodeVectors forces() const;
+
+    /// The solver of its linear equations, which remembers from one call to the next.
+    [[nodiscard]] LinearSolver& solver() { return solver_; }
 
 private:
     [[nodiscard]] double energy(const NodeVectors& x);

@@ -75,6 +75,7 @@ public:
     /// the step. The summary's energy is that of the potentials, without inertia. `apply`
     /// may be empty. Throws InputError unless dt > 0 and the motion has one of each a node.
     [[nodiscard]] EquilibriumSummary step(double dt, const Apply& apply, Motion& motion);
+    [[nodiscard]] LinearSolver& solver() { return equilibrium_.solver(); }
 
 private:
     struct Coefficients {

@@ -28,6 +28,7 @@ constexpr double kServes = 3, kIterationsWithFactor = 6;
 
 bool LinearSolver::make_factor(const BlockMatrix& K, const std::vector<char>& held) {
     ++factors_;
+    stale_ = false;
     return factor_.compute(K, held);
 }
 
@@ -47,7 +48,7 @@ LinearSummary LinearSolver::solve(const BlockMatrix& K, const std::vector<char>&
                                   const NodeVectors& right, const LinearOptions& options,
                                   NodeVectors& x) {
     if (method_ == LinearMethod::factored) factored_ = true;
-    if (factored_ && !factor_.ready() && !make_factor(K, held)) {
+    if (factored_ && (stale_ || !factor_.ready()) && !make_factor(K, held)) {
         factored_ = false;  // no factor: go on without
         method_ = LinearMethod::iterative;
     }

@@ -27,6 +27,10 @@ public:
                                       const NodeVectors& right, const LinearOptions& options,
                                       NodeVectors& x);
     [[nodiscard]] int factors() const { return factors_; }  ///< made so far
+    /// Whether it came to use factors: begin with LinearMethod::factored to go on so.
+    [[nodiscard]] bool factored() const { return factored_; }
+    /// Forgets the factor's numbers, which only save time, but not its ordering.
+    void forget() { stale_ = true; }
 
 private:
     [[nodiscard]] bool make_factor(const BlockMatrix& K, const std::vector<char>& held);
@@ -35,7 +39,7 @@ private:
     LinearMethod method_;
     Factor factor_;
     bool factored_ = false;  // the method in use
-    bool compared_ = false;  // whether a factor's cost is known
+    bool stale_ = false;     // the factor is not to be used
     int factors_ = 0;
 };
 

@@ -24,6 +24,7 @@ public:
     [[nodiscard]] EquilibriumSummary go_to(double load, const ApplyLoad& apply, NodeVectors& x);
     /// Of the potentials where they stand, N.
     [[nodiscard]] NodeVectors forces() const { return equilibrium_.forces(); }
+    [[nodiscard]] LinearSolver& solver() { return equilibrium_.solver(); }
 
 private:
     Equilibrium equilibrium_;

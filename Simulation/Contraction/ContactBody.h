@@ -68,6 +68,8 @@ public:
     [[nodiscard]] double largest_step(const dynamics::NodeVectors& x,
                                       const dynamics::NodeVectors& by) const override;
 
+    /// Forgets what pressed at the last stiffness, which only saves iterations.
+    void forget() { settled_.assign(settled_.size(), 0); }
     [[nodiscard]] ContactReport report() const { return report_of(touch_, options_.law.stiffness); }
 
 private:

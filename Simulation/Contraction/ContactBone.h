@@ -43,6 +43,8 @@ public:
         return 1;
     }
 
+    /// Forgets what pressed at the last stiffness, which only saves iterations.
+    void forget() { settled_.assign(settled_.size(), 0); }
     [[nodiscard]] ContactReport report() const { return report_of(touch_, law_.stiffness); }
 
 private:

@@ -67,19 +67,19 @@ muscle::TissueMaterial read_material(const fs::path& file) {
     return material;
 }
 
-fs::path own_set_of(const Scene& scene, const Material& material) {
+fs::path set_of(const Scene& scene, const Material& material, const fs::path& folder) {
     const fs::path model = material.model.name;
-    return model.extension() == ".yaml" ? scene.file.parent_path() / model : fs::path();
+    return model.extension() == ".yaml" ? scene.file.parent_path() / model
+                                        : folder / (material.model.name + ".yaml");
 }
 
 muscle::TissueMaterial material_of(const Scene& scene, const Material& material,
                                    const fs::path& folder) {
     const std::string& model = material.model.name;
-    const fs::path own = own_set_of(scene, material);
-    const bool is_file = !own.empty();
-    const fs::path file = is_file ? own : folder / (model + ".yaml");
+    const fs::path file = set_of(scene, material, folder);
     if (!fs::exists(file)) {
-        if (is_file) refuse(scene, material.model.line, "there is no file " + file.string());
+        if (fs::path(model).extension() == ".yaml")
+            refuse(scene, material.model.line, "there is no file " + file.string());
         refuse(scene, material.model.line,
                "there is no model '" + model + "'" + known_are(model, models_in(folder)) +
                    "; or name a file of your own that ends in .yaml");

@@ -13,12 +13,12 @@ namespace myotet::contraction {
 /// with the line.
 [[nodiscard]] muscle::TissueMaterial read_material(const std::filesystem::path& file);
 
-/// The set of constants beside the scene that a material's model names by a word that ends
-/// in .yaml; empty: the model is one of Myotet's own.
-[[nodiscard]] std::filesystem::path own_set_of(const Scene& scene, const Material& material);
+/// The set of constants that a material's model names: in `folder` or, where the name ends
+/// in .yaml, beside the scene.
+[[nodiscard]] std::filesystem::path set_of(const Scene& scene, const Material& material,
+                                           const std::filesystem::path& folder);
 
-/// A material of a scene: the set that its model names, in `folder` or, where the name ends
-/// in .yaml, beside the scene; with the scene's own constants. Throws InputError at the
+/// A material of a scene: its set, with the scene's own constants. Throws InputError at the
 /// scene's line.
 [[nodiscard]] muscle::TissueMaterial material_of(const Scene& scene, const Material& material,
                                                  const std::filesystem::path& folder);

@@ -310,6 +310,7 @@ Model build_model(const Scene& scene, SceneShapes shapes, const std::filesystem:
         for (std::size_t n = 0; n < model.rest.size(); ++n)
             model.weight->forces()[n] = model.masses[n] * scene.gravity;
     }
+    model.fingerprint = fingerprint(scene, materials);
     progress.report("preparing", 1);
     return model;
 }

@@ -38,6 +38,7 @@ struct HeldGroup {
 
 /// A scene ready to be solved.
 struct Model {
+    std::string fingerprint;        ///< of the scene and all that it reads
     std::vector<BodyModel> bodies;  ///< in the scene's order
     std::vector<HeldGroup> held;
     std::vector<Vec3> rest;                        ///< all nodes, mm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Contraction/Run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "Contraction/Words.h"
@@ -13,6 +14,8 @@ namespace {
 
 // Output times are met to this part of a step.
 constexpr double kSameTime = 1e-6;
+// Of a frame's number, at least.
+constexpr std::size_t kDigits = 4;
 
 // What the run has written, and how it goes on.
 class Recorder {
@@ -86,7 +89,7 @@ public:
 private:
     static std::string number(std::size_t frame) {
         const std::string digits = std::to_string(frame);
-        return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+        return std::string(digits.size() < kDigits ? kDigits - digits.size() : 0, '0') + digits;
     }
     static fs::path frame_name(std::size_t frame) {
         return fs::path("frames") / ("frame_" + number(frame) + ".vtu");
@@ -135,6 +138,11 @@ void add(const StepSummary& step, RunSummary& summary) {
     summary.residual = std::max(summary.residual, step.residual);
 }
 
+SolveOptions with_stop(SolveOptions solve, const ProgressSink& progress) {
+    solve.equilibrium.stop = [&progress] { return progress.interrupted(); };
+    return solve;
+}
+
 class Runner {
 public:
     Runner(const Scene& scene, Model& model, std::span<const TriMesh> bones,
@@ -142,10 +150,10 @@ public:
         : scene_(scene),
           options_(options),
           progress_(progress),
-          simulation_(scene, model, options.solve),
+          simulation_(scene, model, with_stop(options.solve, progress)),
           recorder_(scene, model, bones, options, summary_),
           with_bones_(!bones.empty()),
-          fingerprint_(fingerprint(scene)),
+          fingerprint_(model.fingerprint),
           steps_(static_cast<int>(std::ceil(scene.time.end / scene.time.step - kSameTime))) {
         summary_.architecture = architecture(scene, model);
     }
@@ -157,13 +165,14 @@ public:
         const int first = options_.resume ? resumed : start();
         for (int i = first; first > 0 && i <= steps_; ++i) {
             tell(i - 1);
-            if (progress_.interrupted()) {
-                summary_.interrupted = true;
-                summary_.message = "stopped at " + shown(simulation_.time()) + " s";
-                break;
-            }
             const double to = i == steps_ ? scene_.time.end : i * scene_.time.step;
             const StepSummary step = simulation_.advance(to);
+            if (step.stopped) {
+                summary_.message = "stopped at " + shown(simulation_.time()) + " s";
+                summary_.interrupted = true;
+                write_checkpoint(i - 1);
+                break;
+            }
             add(step, summary_);
             if (!step.converged) {
                 summary_.message = step.message;
@@ -183,8 +192,13 @@ private:
     void tell(int done) { progress_.report("contracting", static_cast<double>(done) / steps_); }
     // The number of the first step, 0 when there is nothing to go on from.
     int start() {
+        remove_numbered(options_.folder / "frames", ".vtu");
+        remove_numbered(options_.folder / "bones", ".vtp");
+        std::error_code none;
+        fs::remove(options_.folder / kCheckpointFile, none);
         const StepSummary step = simulation_.begin();
         add(step, summary_);
+        summary_.interrupted = step.stopped;
         summary_.message = "no equilibrium at the start: " + step.message;
         if (!step.converged) return 0;
         recorder_.record(simulation_, step.iterations);
@@ -200,13 +214,14 @@ private:
         recorder_.load(checkpoint);
         simulation_.load(checkpoint);
         summary_.resumed_from = checkpoint.time;
+        summary_.resumable = true;
         const int done = static_cast<int>(checkpoint.integers_of("step", 1)[0]);
         summary_.completed = done == steps_;
         progress_.note("going on from " + shown(checkpoint.time) + " s");
         return done + 1;
     }
     void write_checkpoint(int step) {
-        simulation_.forget();
+        summary_.resumable = true;
         Checkpoint checkpoint{.fingerprint = fingerprint_};
         simulation_.save(checkpoint);
         recorder_.save(checkpoint);
@@ -226,6 +241,17 @@ private:
 };
 
 }  // namespace
+
+void remove_numbered(const fs::path& folder, const std::string& extension) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none)) {
+        const std::string stem = entry.path().stem().string();
+        const std::size_t last = stem.find_last_not_of("0123456789");
+        const bool numbered =
+            last != std::string::npos && stem[last] == '_' && stem.size() - last > kDigits;
+        if (numbered && entry.path().extension() == extension) fs::remove(entry.path(), none);
+    }
+}
 
 RunSummary run_scene(const Scene& scene, Model& model, std::span<const TriMesh> bones,
                      const RunOptions& options, ProgressSink& progress) {

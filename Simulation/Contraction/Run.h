@@ -21,7 +21,8 @@ struct RunOptions {
 /// What a run came to.
 struct RunSummary {
     bool completed = false;
-    bool interrupted = false;  ///< a checkpoint is there to go on from
+    bool interrupted = false;
+    bool resumable = false;  ///< a checkpoint is there to go on from
     std::string message;
     double reached = 0;       ///< s
     double resumed_from = 0;  ///< s; 0: from the start
@@ -39,14 +40,18 @@ struct RunSummary {
 ///   contraction.pvd             all of them, for ParaView
 ///   history.csv                 a row a step of the scene
 ///   checkpoint.myotet           where to go on from
-/// A run that finds no equilibrium, or is interrupted between two steps, stops and keeps what
-/// it has; it goes on from the last checkpoint. A run that does so writes the same bytes as
-/// one that was never interrupted, on any number of threads, where checkpoint_every is the
-/// same: a checkpoint forgets what only saves time, so that when it is made shows in the last
-/// digits.
+/// A run that finds no equilibrium stops, keeps what it has and can go on from the last
+/// checkpoint. One that is interrupted gives up the step it is in, within an iteration of
+/// Newton's method, and makes a checkpoint of where that began. A run that goes on writes
+/// the same bytes as one that was never interrupted, on any number of threads. One that
+/// begins anew first takes away what a run before it wrote.
 /// Throws IoError, InputError when there is no checkpoint, or one of another scene.
 [[nodiscard]] RunSummary run_scene(const Scene& scene, Model& model, std::span<const TriMesh> bones,
                                    const RunOptions& options, ProgressSink& progress);
+
+/// Removes a folder's files whose names end in _ and a number of four digits or more, as
+/// those of frames do.
+void remove_numbered(const std::filesystem::path& folder, const std::string& extension);
 
 /// Names of what run_scene writes.
 inline constexpr const char* kCollectionFile = "contraction.pvd";

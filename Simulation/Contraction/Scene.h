@@ -162,12 +162,13 @@ struct Scene {
 [[nodiscard]] std::int32_t find_label(const Scene& scene, const Named& tissue,
                                       const std::map<std::int32_t, std::string>& names);
 
-/// All files that a scene reads, itself first, each once; those that a recipe
-/// reads too. Throws what read_recipe throws.
-[[nodiscard]] std::vector<std::filesystem::path> input_files(const Scene& scene);
+/// All files that a scene reads, itself first, each once; those that a recipe reads and
+/// the sets of constants in `materials` too. Throws what read_recipe throws.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(
+    const Scene& scene, const std::filesystem::path& materials);
 
 /// SHA-256 of the contents of all these files, 64 hexadecimal digits: two scenes
 /// of one fingerprint have the same results. Throws IoError.
-[[nodiscard]] std::string fingerprint(const Scene& scene);
+[[nodiscard]] std::string fingerprint(const Scene& scene, const std::filesystem::path& materials);
 
 }  // namespace myotet::contraction

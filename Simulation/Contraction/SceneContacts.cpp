@@ -64,6 +64,13 @@ bool SceneContacts::update_pairs(const std::vector<Vec3>& x) {
     return changed;
 }
 
+void SceneContacts::forget() {
+    for (const Side& side : sides_) {
+        if (side.with_bone) side.with_bone->forget();
+        if (side.with_body) side.with_body->forget();
+    }
+}
+
 std::vector<ContactReport> SceneContacts::reports() const {
     std::vector<ContactReport> all(scene_.contacts.size());
     for (const Side& side : sides_)

@@ -30,6 +30,7 @@ public:
     void set_time(double time);
     /// Looks which nodes are near which bodies; true when that changed.
     bool update_pairs(const std::vector<Vec3>& x);
+    void forget();  ///< of each side
     /// Of each contact of the scene, both sides together.
     [[nodiscard]] std::vector<ContactReport> reports() const;
 

@@ -47,7 +47,7 @@ std::int32_t find_label(const Scene& scene, const Named& tissue,
            "there is no tissue '" + tissue.name + "'" + known_are(tissue.name, known));
 }
 
-std::vector<fs::path> input_files(const Scene& scene) {
+std::vector<fs::path> input_files(const Scene& scene, const fs::path& materials) {
     std::vector<fs::path> files;
     const auto add = [&](const fs::path& file) {
         if (!file.empty() && std::ranges::find(files, file) == files.end()) files.push_back(file);
@@ -70,7 +70,7 @@ std::vector<fs::path> input_files(const Scene& scene) {
         add(body.fibres.file);
         add(body.activation_file);
     }
-    for (const Material& material : scene.materials) add(own_set_of(scene, material));
+    for (const Material& material : scene.materials) add(set_of(scene, material, materials));
     for (const Bone& bone : scene.bones) {
         add_mesh(bone.mesh);
         add(bone.surface);
@@ -78,9 +78,9 @@ std::vector<fs::path> input_files(const Scene& scene) {
     return files;
 }
 
-std::string fingerprint(const Scene& scene) {
+std::string fingerprint(const Scene& scene, const fs::path& materials) {
     std::string sums;
-    for (const fs::path& file : input_files(scene)) sums += sha256_of_file(file);
+    for (const fs::path& file : input_files(scene, materials)) sums += sha256_of_file(file);
     return sha256(sums);
 }
 

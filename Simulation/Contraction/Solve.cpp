@@ -49,7 +49,6 @@ Simulation::Simulation(const Scene& scene, Model& model, const SolveOptions& opt
     if (scene.time.scheme == Scheme::quasi_static) part_ = kFirstPart;
 }
 
-// Contacts remember what they pressed last, to solve faster: as good as new they forget it.
 void Simulation::make_contacts() {
     contacts_ = std::make_unique<SceneContacts>(scene_, model_.contacts, model_.rest);
     potentials_ = bodies_;
@@ -58,9 +57,11 @@ void Simulation::make_contacts() {
 
 void Simulation::make_solver() {
     if (quasi_static_ || implicit_) return;
+    dynamics::EquilibriumOptions equilibrium = options_.equilibrium;
+    if (factor_pays_) equilibrium.linear_method = dynamics::LinearMethod::factored;
     if (scene_.time.scheme == Scheme::quasi_static) {
         quasi_static_ = std::make_unique<dynamics::LoadStepper>(potentials_, model_.rest.size(),
-                                                                held_, options_.equilibrium);
+                                                                held_, equilibrium);
         return;
     }
     dynamics::ImplicitOptions options;
@@ -69,15 +70,28 @@ void Simulation::make_solver() {
                          : dynamics::TimeScheme::backward_euler;
     options.rho_infinity = scene_.time.rho_infinity;
     options.mass_damping = scene_.time.damping;
-    options.equilibrium = options_.equilibrium;
+    options.equilibrium = std::move(equilibrium);
     implicit_ =
         std::make_unique<dynamics::ImplicitIntegrator>(potentials_, model_.masses, held_, options);
 }
 
-void Simulation::forget() {
+dynamics::LinearSolver* Simulation::linear_solver() {
+    if (quasi_static_) return &quasi_static_->solver();
+    return implicit_ ? &implicit_->solver() : nullptr;
+}
+
+void Simulation::drop_solver() {
+    if (const auto* solver = linear_solver()) factor_pays_ = solver->factored();
     quasi_static_.reset();
     implicit_.reset();
-    make_contacts();
+}
+
+void Simulation::forget() {
+    if (auto* solver = linear_solver()) {
+        factor_pays_ = solver->factored();
+        solver->forget();
+    }
+    contacts_->forget();
 }
 
 void Simulation::apply(double time, std::vector<Vec3>& x) {
@@ -111,10 +125,7 @@ void Simulation::accept_rates() {
 
 dynamics::EquilibriumSummary Simulation::step_to(double time) {
     // A matrix has room for the nodes that are near one another now.
-    if (contacts_->update_pairs(motion_.x)) {
-        quasi_static_.reset();
-        implicit_.reset();
-    }
+    if (contacts_->update_pairs(motion_.x)) drop_solver();
     make_solver();
     const auto moved = [this](double at, std::vector<Vec3>& x) { apply(at, x); };
     dynamics::EquilibriumSummary summary;
@@ -146,16 +157,19 @@ StepSummary Simulation::begin() {
     }
     const dynamics::EquilibriumSummary step = step_to(0);
     summary.converged = step.converged;
+    summary.stopped = step.stopped;
     summary.iterations = step.iterations;
     summary.linear_iterations = step.linear_iterations;
     summary.factors = step.factors;
     if (!step.converged) summary.message = step.message + "; " + trouble();
+    forget();
     return summary;
 }
 
 StepSummary Simulation::advance(double to) {
     StepSummary summary;
-    const double whole = scene_.time.step;
+    const double whole = scene_.time.step, part_before = part_;
+    const dynamics::Motion before = motion_;
     while (to - motion_.time > kSameTime * whole) {
         double next = std::min(to, motion_.time + part_ * whole);
         if (to - next < kSameTime * whole) next = to;
@@ -172,6 +186,12 @@ StepSummary Simulation::advance(double to) {
             if (step.iterations > kHard) part_ = std::max(options_.least_part, 0.5 * part_);
             continue;
         }
+        if (step.stopped) {
+            summary.stopped = true;
+            motion_ = before;
+            part_ = part_before;
+            return summary;
+        }
         ++summary.failed_steps;
         part_ *= 0.5;
         if (part_ >= options_.least_part) continue;
@@ -180,6 +200,7 @@ StepSummary Simulation::advance(double to) {
         return summary;
     }
     summary.converged = true;
+    forget();
     return summary;
 }
 
@@ -233,6 +254,7 @@ void Simulation::save(Checkpoint& checkpoint) const {
     checkpoint.reals["a"] = flat(motion_.a);
     checkpoint.reals["f"] = flat(motion_.f);
     checkpoint.reals["part"] = {part_};
+    checkpoint.integers["factor_pays"] = {factor_pays_};
 }
 
 void Simulation::load(const Checkpoint& checkpoint) {
@@ -242,7 +264,10 @@ void Simulation::load(const Checkpoint& checkpoint) {
                vectors_of(checkpoint.reals_of("a", length)),
                vectors_of(checkpoint.reals_of("f", length)), checkpoint.time};
     part_ = checkpoint.reals_of("part", 1)[0];
-    forget();
+    factor_pays_ = checkpoint.integers_of("factor_pays", 1)[0] != 0;
+    quasi_static_.reset();
+    implicit_.reset();
+    make_contacts();
     // The bodies stand where they did.
     std::vector<Vec3> x = motion_.x;
     apply(motion_.time, x);

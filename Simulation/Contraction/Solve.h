@@ -21,7 +21,8 @@ struct SolveOptions {
 /// What a step of the scene took.
 struct StepSummary {
     bool converged = false;
-    std::string message;  ///< why not; which tetrahedra, where and how they are
+    bool stopped = false;  ///< as EquilibriumOptions::stop asked for
+    std::string message;   ///< why not; which tetrahedra, where and how they are
     int steps = 0, failed_steps = 0;
     int iterations = 0, linear_iterations = 0, factors = 0;
     double residual = 0;  ///< the largest of its equilibria
@@ -36,7 +37,9 @@ public:
     /// Settles the bodies at time 0.
     [[nodiscard]] StepSummary begin();
     /// From the present time to a later one, in as many steps as it takes. When it does not
-    /// converge, the simulation stands at the last moment that did.
+    /// converge, the simulation stands at the last moment that did; when it is stopped, where
+    /// it stood before. What only saves time is forgotten at the end, so that whoever goes on
+    /// from a checkpoint gets the same bytes.
     [[nodiscard]] StepSummary advance(double to);
 
     [[nodiscard]] double time() const { return motion_.time; }
@@ -48,9 +51,6 @@ public:
     [[nodiscard]] std::vector<ContactReport> contacts() const { return contacts_->reports(); }
     [[nodiscard]] double activation(std::size_t body) const { return activation_[body]; }
 
-    /// Forgets what only saves time, so that whoever goes on from a checkpoint made now
-    /// gets the same bytes.
-    void forget();
     void save(Checkpoint& checkpoint) const;
     void load(const Checkpoint& checkpoint);
 
@@ -58,6 +58,9 @@ private:
     void apply(double time, std::vector<Vec3>& x);
     void make_contacts();
     void make_solver();
+    void drop_solver();
+    [[nodiscard]] dynamics::LinearSolver* linear_solver();
+    void forget();
     [[nodiscard]] dynamics::EquilibriumSummary step_to(double time);
     void begin_rates(double seconds);
     void accept_rates();
@@ -73,7 +76,8 @@ private:
     std::unique_ptr<dynamics::ImplicitIntegrator> implicit_;
     dynamics::Motion motion_;
     std::vector<double> activation_;
-    double part_ = 1;  // of the scene's step that is tried next
+    double part_ = 1;           // of the scene's step that is tried next
+    bool factor_pays_ = false;  // what solvers have learned so far
 };
 
 }  // namespace myotet::contraction

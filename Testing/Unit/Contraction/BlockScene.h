@@ -56,17 +56,19 @@ struct Loaded {
     Model model;
 };
 
-/// Stops when it has been asked as often as allowed.
+/// Stops within the step that begins at this part of the run, after it was asked once.
 class StopAfter final : public ProgressSink {
 public:
-    explicit StopAfter(int times) : left_(times) {}
-    void report(std::string_view, double) override {}
+    explicit StopAfter(double part) : part_(part) {}
+    void report(std::string_view, double done) override { reached_ = done >= part_; }
     void warn(std::string_view) override {}
     void note(std::string_view) override {}
-    [[nodiscard]] bool interrupted() const override { return left_-- <= 0; }
+    [[nodiscard]] bool interrupted() const override { return reached_ && asked_++ > 0; }
 
 private:
-    mutable std::atomic<int> left_;
+    double part_;
+    bool reached_ = false;
+    mutable std::atomic<int> asked_ = 0;
 };
 
 /// A folder with the block's mesh and a scene of it.

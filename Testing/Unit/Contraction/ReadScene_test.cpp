@@ -215,19 +215,26 @@ TEST(ReadScene, InputFilesAreAllThatIsRead) {
                          "steps:\n  - union: biceps\n    with: {surface: extra.stl}\n");
     testing::write_bytes(files.folder / "extra.stl", "surface");
     std::vector<std::string> names;
-    for (const auto& file : input_files(files.read(kWhole))) names.push_back(file.filename());
+    for (const auto& file : input_files(files.read(kWhole), "materials"))
+        names.push_back(file.filename());
     EXPECT_THAT(names,
                 ElementsAre("scene.yaml", "arm.nii.gz", "names.txt", "recipe.yaml", "extra.stl",
-                            "emg.csv", "biceps.vtu", "fibres.nii.gz", "humerus.vtu", "radius.stl"));
+                            "emg.csv", "biceps.vtu", "fibres.nii.gz", "blemker2005_muscle.yaml",
+                            "blemker2005_tendon.yaml", "humerus.vtu", "radius.stl"));
 }
 
 TEST(ReadScene, AFingerprintChangesWithEveryFileAndNotWithTheFolder) {
     const SceneFolder files, others;
-    const std::string before = fingerprint(files.read(kWhole));
-    EXPECT_EQ(fingerprint(others.read(kWhole)), before);
-    EXPECT_NE(fingerprint(files.read(std::string(kWhole) + "# a word\n")), before);
+    const std::filesystem::path materials = files.folder / "materials";
+    std::filesystem::copy(MYOTET_MATERIALS_DIR, materials);
+    const std::string before = fingerprint(files.read(kWhole), materials);
+    EXPECT_EQ(fingerprint(others.read(kWhole), MYOTET_MATERIALS_DIR), before);
+    EXPECT_NE(fingerprint(files.read(std::string(kWhole) + "# a word\n"), materials), before);
+    testing::write_bytes(materials / "blemker2005_muscle.yaml", "another");
+    const std::string changed = fingerprint(files.read(kWhole), materials);
+    EXPECT_NE(changed, before);
     testing::write_bytes(files.folder / "radius.stl", "another");
-    EXPECT_NE(fingerprint(files.read(kWhole)), before);
+    EXPECT_NE(fingerprint(files.read(kWhole), materials), changed);
 }
 
 TEST(FindLabel, ByNameOrValue) {

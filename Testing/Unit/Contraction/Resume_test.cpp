@@ -51,16 +51,17 @@ TEST(Resume, GoesOnWithTheSameBytesOnAnyNumberOfThreads) {
         const ThreadLimit two(2);
         const fs::path again = block.folder / "again";
         Loaded first = block.load(lively(scheme));
-        StopAfter stop(5);  // one step beyond the third checkpoint
+        StopAfter stop(0.625);  // one step beyond the third checkpoint
         RunSummary run = block.run(first, {.folder = again, .checkpoint_every = 2}, stop);
         EXPECT_TRUE(run.interrupted);
         EXPECT_FALSE(run.completed);
         EXPECT_EQ(run.reached, 0.625);
         EXPECT_EQ(run.message, "stopped at 0.625 s");
+        EXPECT_TRUE(run.resumable);
 
         Loaded second = block.load(lively(scheme));
-        run = block.run(second, {.folder = again, .resume = true, .checkpoint_every = 2});
-        EXPECT_EQ(run.resumed_from, 0.5);
+        run = block.run(second, {.folder = again, .resume = true, .checkpoint_every = 3});
+        EXPECT_EQ(run.resumed_from, 0.625);  // not 0.5: it made a checkpoint of its own
         EXPECT_EQ(run.iterations, at_once.iterations);
         EXPECT_EQ(run.history.rows, at_once.history.rows);
         const auto got = contents(again);
@@ -79,6 +80,32 @@ TEST(Resume, OfAFinishedRunChangesNothing) {
     const RunSummary run = block.run(again, {.resume = true});
     EXPECT_EQ(run.history.rows.size(), 5u);
     EXPECT_EQ(contents(block.out()), before);
+}
+
+TEST(Resume, BeforeTheFirstEquilibriumThereIsNothingToGoOnFrom) {
+    const BlockFolder block;
+    Loaded loaded = block.load({.activation = "1", .more = "gravity: [0, -9810, 0]\n"});
+    StopAfter stop(0);
+    stop.report("preparing", 0);
+    (void)stop.interrupted();  // asked once: from now on it says yes
+    const RunSummary run = block.run(loaded, {}, stop);
+    EXPECT_TRUE(run.interrupted);
+    EXPECT_FALSE(run.resumable);
+    EXPECT_TRUE(contents(block.out()).empty());
+}
+
+TEST(Resume, ARunThatBeginsAnewTakesAwayWhatWasThere) {
+    const BlockFolder block;
+    Loaded loaded = block.load(BlockText{});
+    (void)block.run(loaded);
+    const auto expected = contents(block.out());
+    testing::write_bytes(block.out() / "frames/frame_0099.vtu", "of a longer run");
+    testing::write_bytes(block.out() / "frames/notes_of_mine.vtu", "stays");
+    Loaded again = block.load(BlockText{});
+    (void)block.run(again);
+    auto got = contents(block.out());
+    EXPECT_EQ(got.erase("frames/notes_of_mine.vtu"), 1u);
+    EXPECT_EQ(got, expected);
 }
 
 TEST(Resume, WithoutACheckpointIsRefusedAndLeavesNoFolder) {

@@ -16,7 +16,7 @@ namespace myotet::dynamics {
 namespace {
 
 using elasticity::NeoHookean;
-constexpr EquilibriumOptions kExact{.tolerance = 1e-11};
+const EquilibriumOptions kExact{.tolerance = 1e-11};
 
 std::shared_ptr<const elasticity::PointLaw> rubber(double poisson) {
     return std::make_shared<elasticity::OneLaw<NeoHookean>>(

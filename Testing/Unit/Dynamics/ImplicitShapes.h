@@ -14,7 +14,7 @@
 
 namespace myotet::dynamics::test {
 
-inline constexpr EquilibriumOptions kExact{.tolerance = 1e-11};
+inline const EquilibriumOptions kExact{.tolerance = 1e-11};
 inline constexpr double kDensity = 1e-9;  // t/mm^3, water
 
 inline std::shared_ptr<const elasticity::PointLaw> rubber(double poisson = 0.4) {
