@@ -15,7 +15,7 @@ namespace myotet::contraction {
 ///   k A (gap - d)^2 / 2   where d < gap, and nothing elsewhere:
 /// the pressure on it is p = k (gap - d), MPa, whatever the mesh [penalty method: Wriggers
 /// 2006, sec. 5.3 and 6.3]. Where two surfaces press on each other both ways, from a to b
-/// and from b to a, both pressures add up.
+/// and from b to a, both pressures add up: each way has half of k.
 struct PenaltyLaw {
     /// k, pressure a depth, MPa/mm = N/mm^3. 1: muscles at 0.05 MPa sink in by 0.05 mm, less
     /// than a scan resolves; of a tetrahedron of 2 mm it is as stiff as 2 MPa, a few times

@@ -168,7 +168,7 @@ public:
             const double to = i == steps_ ? scene_.time.end : i * scene_.time.step;
             const StepSummary step = simulation_.advance(to);
             if (step.stopped) {
-                summary_.message = "stopped at " + shown(simulation_.time()) + " s";
+                summary_.message = "stopped at " + rounded(simulation_.time()) + " s";
                 summary_.interrupted = true;
                 write_checkpoint(i - 1);
                 break;
@@ -217,7 +217,7 @@ private:
         summary_.resumable = true;
         const int done = static_cast<int>(checkpoint.integers_of("step", 1)[0]);
         summary_.completed = done == steps_;
-        progress_.note("going on from " + shown(checkpoint.time) + " s");
+        progress_.note("going on from " + rounded(checkpoint.time) + " s");
         return done + 1;
     }
     void write_checkpoint(int step) {

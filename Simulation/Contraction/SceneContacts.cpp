@@ -9,8 +9,13 @@ namespace {
 // Beyond the gap, nodes are watched that come so near in a step, mm.
 constexpr double kReach = 5;
 
-// What both sides of a contact feel together.
-void add(const ContactReport& side, ContactReport& to) {
+// What both sides of a contact feel together; two bodies press each other both ways, over
+// one area.
+void add(ContactReport side, bool both_ways, ContactReport& to) {
+    if (both_ways) {
+        side.area /= 2;
+        side.max_pressure *= 2;
+    }
     const double area = to.area + side.area;
     if (area > 0) to.mean_depth = (to.mean_depth * to.area + side.mean_depth * side.area) / area;
     to.area = area;
@@ -28,7 +33,8 @@ SceneContacts::SceneContacts(const Scene& scene, const std::vector<ContactSide>&
     : scene_(scene) {
     for (const ContactSide& side : sides) {
         const Contact& contact = scene.contacts[side.contact];
-        const PenaltyLaw law{contact.stiffness, contact.gap};
+        const PenaltyLaw law{side.bone >= 0 ? contact.stiffness : contact.stiffness / 2,
+                             contact.gap};
         Side made{side.contact, side.bone, nullptr, nullptr};
         if (side.bone >= 0)
             made.with_bone = std::make_unique<BoneContact>(side.nodes, rest, side.other, law);
@@ -75,7 +81,7 @@ std::vector<ContactReport> SceneContacts::reports() const {
     std::vector<ContactReport> all(scene_.contacts.size());
     for (const Side& side : sides_)
         add(side.with_bone ? side.with_bone->report() : side.with_body->report(),
-            all[side.contact]);
+            !side.with_bone, all[side.contact]);
     return all;
 }
 

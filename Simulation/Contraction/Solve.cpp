@@ -195,7 +195,7 @@ StepSummary Simulation::advance(double to) {
         ++summary.failed_steps;
         part_ *= 0.5;
         if (part_ >= options_.least_part) continue;
-        summary.message = "no equilibrium beyond " + shown(motion_.time) + " s: " + step.message +
+        summary.message = "no equilibrium beyond " + rounded(motion_.time) + " s: " + step.message +
                           "; " + trouble();
         return summary;
     }

@@ -16,6 +16,13 @@ std::string shown(double number) {
     return {digits, end};
 }
 
+std::string rounded(double number) {
+    char digits[40];
+    const auto [end, error] =
+        std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
+    return {digits, end};
+}
+
 std::optional<double> to_number(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;

@@ -9,8 +9,11 @@
 
 namespace myotet::contraction {
 
-/// A number as messages and tables show it: the shortest text that reads back the same.
+/// A number as tables show it: the shortest text that reads back the same.
 [[nodiscard]] std::string shown(double number);
+
+/// A number for a reader: six digits at most.
+[[nodiscard]] std::string rounded(double number);
 
 /// The number that the whole text is, "nan" and "inf" included; nothing otherwise.
 [[nodiscard]] std::optional<double> to_number(std::string_view text);
