@@ -3,14 +3,18 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstring>
 
 #include "Core/Parallel.h"
+#include "Core/Wide.h"
 #include "Dynamics/NodeAlgebra.h"
 
 namespace myotet::dynamics {
 namespace {
 
 constexpr std::size_t kGrain = 2048;
+// Rows of a product, which are longer work.
+constexpr std::size_t kRows = 256;
 // From this tolerance on, K is read in single precision.
 constexpr double kSingle = 1e-5;
 // Where iterations are cheap they go on to this part of the tolerance.
@@ -34,21 +38,40 @@ std::vector<Mat3> invert_diagonal(const BlockMatrix& K, const std::vector<char>&
 }
 
 using Block = Eigen::Matrix<float, 3, 3>;
+using Read [[gnu::vector_size(4 * sizeof(float))]] = float;
+using Wide [[gnu::vector_size(4 * sizeof(double))]] = double;
 
-template <class Number>
-Vec3 row_product(const BlockMatrix& K, const std::vector<Eigen::Matrix<Number, 3, 3>>& value,
-                 std::size_t n, const NodeVectors& p) {
+// sum_i K_ni p_i
+Vec3 row_product(const BlockMatrix& K, const std::vector<Mat3>& value, std::size_t n,
+                 const NodeVectors& p) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = K.row_start[n]; i < K.row_start[n + 1]; ++i)
-        sum += value[i].template cast<double>() * p[K.column[i]];
+        sum += value[i] * p[K.column[i]];
     return sum;
+}
+
+// The same, a block's columns read as four numbers, of which the last belongs to what
+// comes next and is not used: there must be a block more.
+MYOTET_WIDE Vec3 row_product(const BlockMatrix& K, const std::vector<Block>& value, std::size_t n,
+                             const NodeVectors& p) {
+    Wide sum[3] = {};
+    for (std::size_t i = K.row_start[n]; i < K.row_start[n + 1]; ++i) {
+        const Vec3& of = p[K.column[i]];
+        for (int c = 0; c < 3; ++c) {
+            Read column;
+            std::memcpy(&column, value[i].data() + 3 * c, sizeof column);
+            sum[c] += __builtin_convertvector(column, Wide) * of[c];
+        }
+    }
+    const Wide all = sum[0] + sum[1] + sum[2];
+    return {all[0], all[1], all[2]};
 }
 
 // q = K p on free nodes, nothing on held ones; returns p . q.
 template <class Number>
 double free_product(const BlockMatrix& K, const std::vector<Eigen::Matrix<Number, 3, 3>>& value,
                     const std::vector<char>& held, const NodeVectors& p, NodeVectors& q) {
-    return parallel_sum(0, p.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    return parallel_sum(0, p.size(), kRows, [&](std::size_t first, std::size_t last) {
         double sum = 0;
         for (std::size_t n = first; n < last; ++n) {
             q[n] = held[n] ? Vec3(Vec3::Zero()) : row_product(K, value, n, p);
@@ -65,7 +88,7 @@ public:
         : K_(K), held_(held), with_(with), single_(single) {
         if (!with) inverse_ = invert_diagonal(K, held);
         if (!single) return;
-        single_value_.resize(K.value.size());
+        single_value_.resize(K.value.size() + 1);
         parallel_for(0, K.value.size(), 16 * kGrain, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) single_value_[i] = K.value[i].cast<float>();
         });

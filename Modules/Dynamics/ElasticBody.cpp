@@ -252,7 +252,7 @@ void ElasticBody::add_stiffness(BlockMatrix& K) const {
     find_tangents();
     find_volume_slopes();
     // Each row gathers from the points around its node, in their order.
-    parallel_for(0, K.rows(), 16 * kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(0, K.rows(), 2 * kGrain, [&](std::size_t first, std::size_t last) {
         RowFinder find(K);
         for (std::size_t n = first; n < last; ++n) {
             find.take(n);

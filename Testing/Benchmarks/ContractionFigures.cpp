@@ -98,16 +98,19 @@ TEST(ContractionFigures, StepsAreAsExactAsSaid) {
 
 // What elements free of locking cost beside plain ones: the same mesh to full activation.
 TEST(ContractionFigures, PatchesBesidePlainTetrahedra) {
-    double seconds[2] = {};
-    for (const Elements elements : {Elements::linear, Elements::patches}) {
-        const double start = bench::processor_seconds();
-        MuscleRun run(block(8, elements), {});
-        for (int i = 1; i <= 20; ++i) ASSERT_TRUE(run.go_to(0, 0.05 * i));
-        seconds[elements == Elements::patches] = bench::processor_seconds() - start;
-    }
+    double seconds[2] = {1e9, 1e9};  // the best of three, as other work disturbs
+    for (int again = 0; again < 3; ++again)
+        for (const Elements elements : {Elements::linear, Elements::patches}) {
+            const double start = bench::processor_seconds();
+            MuscleRun run(block(8, elements), {});
+            for (int i = 1; i <= 20; ++i) ASSERT_TRUE(run.go_to(0, 0.05 * i));
+            double& best = seconds[elements == Elements::patches];
+            best = std::min(best, bench::processor_seconds() - start);
+        }
     std::printf("plain %.2f s, patches %.2f s of processor time: %.2f times\n", seconds[0],
                 seconds[1], seconds[1] / seconds[0]);
-    EXPECT_LT(seconds[1], 2.6 * seconds[0]);  // asked: 2; see the README
+    // Asked: 2; measured 1.8 to 1.9 on a quiet machine, and what other work disturbs on top.
+    EXPECT_LT(seconds[1], 2.2 * seconds[0]);
 }
 
 // A muscle of 3 000 tetrahedra that twitches: implicit steps a second.
@@ -148,7 +151,9 @@ TEST(ContractionFigures, ThreeThousandTetrahedraInMotion) {
     std::printf(
         "%.0f steps a second of processor time, %.0f on the clock, %.1f iterations a step\n",
         kSteps / seconds, kSteps / wall, 1.0 * iterations / kSteps);
-    EXPECT_GE(kSteps / seconds, 12);  // asked: 30; see the README
+    // Asked: 30 on the clock, which other work takes from; measured 44 to 47, and 25 of
+    // processor time, in which threads that wait count too.
+    EXPECT_GE(std::max(kSteps / wall, kSteps / seconds), 20);
 }
 
 }  // namespace
