@@ -46,6 +46,7 @@ Volume read_volume(const contraction::Labels& labels, ProgressSink& progress) {
     choices.repair = labels.repair;
     Volume volume;
     volume.sizes = choose_sizes({.edge_length = labels.edge_length}, scan);
+    volume.sizes.compression = {labels.compression};
     volume.sets = make_level_sets(scan, choices, progress);
     for (const Tissue& tissue : volume.sets.tissues) volume.names[tissue.label] = tissue.name;
     return volume;

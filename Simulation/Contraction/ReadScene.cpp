@@ -16,8 +16,10 @@ constexpr Range kPart{0, 1, true, "a number from 0 to 1"};
 
 Labels read_labels(const YamlTree& tree, const fs::path& file) {
     using levelset::Smoothing;
-    const Keys keys(tree, file, "'labels'",
-                    {"file", "names", "edge_length", "smoothing", "close_gaps", "repair"});
+    using meshing::Compression;
+    const Keys keys(
+        tree, file, "'labels'",
+        {"file", "names", "edge_length", "smoothing", "compression", "close_gaps", "repair"});
     Labels labels;
     labels.line = tree.key_line;
     labels.file = keys.existing_file("file");
@@ -31,6 +33,10 @@ Labels read_labels(const YamlTree& tree, const fs::path& file) {
                                       {{"curvature", Smoothing::curvature},
                                        {"constrained", Smoothing::constrained},
                                        {"none", Smoothing::none}});
+    labels.compression = keys.choice_or("compression", labels.compression,
+                                        {{"springs", Compression::springs},
+                                         {"fem", Compression::fem},
+                                         {"optimization", Compression::optimization}});
     return labels;
 }
 

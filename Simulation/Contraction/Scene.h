@@ -10,6 +10,7 @@
 #include "Contraction/Curve.h"
 #include "Contraction/Motion.h"
 #include "LevelSet/FromLabels.h"
+#include "Meshing/MeshLevelSet.h"
 #include "Muscle/ForceVelocity.h"
 
 namespace myotet::contraction {
@@ -28,6 +29,7 @@ struct Labels {
     double edge_length = 0;        ///< on the surface, mm; 0: from the voxels
     double close_gaps = 0;         ///< between tissues, up to this wide, mm; 0: none
     levelset::Smoothing smoothing = levelset::Smoothing::curvature;
+    meshing::Compression compression = meshing::Compression::optimization;
     int line = 0;
 };
 

@@ -47,6 +47,7 @@ labels:
   names: names.txt
   edge_length: 4
   smoothing: constrained
+  compression: fem
   close_gaps: 2
   repair: recipe.yaml
 bodies:
@@ -100,7 +101,7 @@ TEST(ReadScene, BodiesAndMaterials) {
     ASSERT_EQ(scene.bodies.size(), 3u);
     const Body& biceps = scene.bodies[0];
     EXPECT_EQ(biceps.tissues[1].name, "31");
-    EXPECT_EQ(biceps.tissues[1].line, 11);
+    EXPECT_EQ(biceps.tissues[1].line, 12);
     EXPECT_EQ(biceps.materials[1].tissue, "31");
     EXPECT_EQ(biceps.materials[1].material.name, "blemker2005_tendon");
     EXPECT_EQ(biceps.fibres.from, FibreSource::laplace);
@@ -117,7 +118,7 @@ TEST(ReadScene, BodiesAndMaterials) {
     EXPECT_DOUBLE_EQ(scene.materials[0].density, 1e-9);
     EXPECT_EQ(scene.materials[0].constants[1].name, "G1");
     EXPECT_EQ(scene.materials[0].constants[1].value, 5e-4);
-    EXPECT_EQ(scene.materials[0].constants[1].line, 30);
+    EXPECT_EQ(scene.materials[0].constants[1].line, 31);
     EXPECT_EQ(scene.materials[1].name, "blemker2005_tendon");
 }
 
@@ -143,7 +144,7 @@ TEST(ReadScene, BonesAndAttachments) {
     EXPECT_EQ(attachments[2].normal, Vec3::UnitZ());
     EXPECT_EQ(attachments[2].point, Vec3(0, 0, 10));
     EXPECT_EQ(attachments[2].within, 1);
-    EXPECT_EQ(attachments[2].line, 43);
+    EXPECT_EQ(attachments[2].line, 44);
 }
 
 TEST(ReadScene, TheRest) {
@@ -156,6 +157,7 @@ TEST(ReadScene, TheRest) {
     EXPECT_EQ(scene.labels->edge_length, 4);
     EXPECT_EQ(scene.labels->close_gaps, 2);
     EXPECT_EQ(scene.labels->smoothing, levelset::Smoothing::constrained);
+    EXPECT_EQ(scene.labels->compression, meshing::Compression::fem);
     ASSERT_EQ(scene.contacts.size(), 2u);
     EXPECT_EQ(scene.contacts[0].gap, 0.1);
     EXPECT_EQ(scene.contacts[0].stiffness, 3);
