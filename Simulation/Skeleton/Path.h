@@ -7,6 +7,7 @@
 #include "Core/Geometry.h"
 #include "Skeleton/Model.h"
 #include "Skeleton/Skeleton.h"
+#include "Skeleton/Wrap.h"
 
 namespace myotet::skeleton {
 
@@ -14,28 +15,52 @@ namespace myotet::skeleton {
 struct PathNode {
     Vec3 at = Vec3::Zero();  ///< in ground, mm
     int body = 0;
+    int point = -1;  ///< of the muscle; -1: where the path meets or leaves a wrap object
     /// It begins a piece of a curve around this wrap object that ends at the next node; -1: the
     /// next piece is straight.
     int around = -1;
-    double curve = 0;  ///< length of that piece, mm
+    double curve = 0;           ///< length of that piece, mm
+    Vec3 along = Vec3::Zero();  ///< unit direction there, in ground, where point is -1
 };
 
 /// Where a muscle runs.
 struct Path {
     double length = 0;            ///< mm
     std::vector<PathNode> nodes;  ///< from origin to insertion
+    /// Wrap objects that are left out because a neighbouring point of the path lies inside:
+    /// the path may run through them.
+    std::vector<int> inside;
 };
 
 /// What a path remembers from the pose before, so that it does not jump to the other side
 /// of an object: give the same one for a motion's poses in turn, a new one to begin.
 struct PathMemory {
-    /// An entry for a wrap of the muscle: direction in the object's frame in which the path
-    /// passed, zero while it did not touch.
-    std::vector<Vec3> sides;
+    /// Where it touched, from origin to insertion.
+    struct Contact {
+        int wrap = 0;            ///< of the muscle
+        int begin = 0, end = 0;  ///< points of the muscle between which it lies
+        WrapMemory memory;
+    };
+    std::vector<Contact> contacts;
+    /// On which side it passed clear of a wrap object that holds it on one.
+    struct Pass {
+        int wrap = 0;
+        int begin = 0, end = 0;
+        Vec3 side = Vec3::Zero();
+    };
+    std::vector<Pass> passes;
 };
 
 /// The shortest path of a muscle over its wrap objects: `bodies` their places in ground,
 /// `values` those of the coordinates.
+///
+/// A wrap acts on one of the straight pieces in its range: the first that runs through its
+/// object, else that which it lengthens least; find_wrap says how. Over several objects
+/// each is wrapped between its neighbours' contact points until none of these moves by
+/// more than 1e-11 of the path, so that the whole path is taut. Objects that are not active
+/// do not act. A torus may be touched at two places.
+/// Cost: 1 us and find_wrap for each piece in the range of a wrap; several objects in
+/// contact multiply that by about ten.
 [[nodiscard]] Path find_path(const Model& model, const Muscle& muscle, std::span<const Pose> bodies,
                              std::span<const double> values, PathMemory& memory);
 
@@ -48,5 +73,10 @@ struct PathMemory {
                                                const Path& path, std::span<const Pose> bodies,
                                                std::span<const double> values,
                                                std::span<const std::vector<BodyRate>> rates);
+
+/// Points along the path for pictures, in ground: its nodes, and on curves points no more
+/// than `step` mm apart.
+[[nodiscard]] std::vector<Vec3> drawn(const Model& model, const Path& path,
+                                      std::span<const Pose> bodies, double step);
 
 }  // namespace myotet::skeleton
