@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <random>
+#include <gtest/gtest.h>
 
-#include "Activation/Instant.h"
+#include <random>
+#include <vector>
+
+#include "Activation/Distribution.h"
 
 namespace myotet::activation {
+
+// Conditions hold to 1e-10, so activations of a strongly convex cost too, times its condition.
+inline constexpr double kSame = 1e-7, kResidual = 1e-9;
+// Torques are sums of some 1e4 N mm.
+inline constexpr double kTorque = 1e-5;
+
+inline void expect_solved(const Distribution& found) {
+    EXPECT_EQ(found.status, Status::converged) << found.message;
+    EXPECT_LE(found.residual, kResidual);
+    EXPECT_LE(found.torque_residual, kTorque);
+}
+inline void expect_same(const std::vector<double>& a, const std::vector<double>& b,
+                        double tolerance) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
 
 /// Muscles on both sides of each coordinate, and torques that activations somewhere between
 /// the bounds make. mm, N.
