@@ -29,6 +29,11 @@ void check_names(const Scene& scene) {
     for (const Body& body : scene.bodies) check(body.name, body.line);
     for (const Bone& bone : scene.bones) {
         check(bone.name, bone.line);
+        if (!bone.body.name.empty() && scene.skeleton.model.empty())
+            refuse(scene, bone.body.line,
+                   "'" + bone.name + "' goes with '" + bone.body.name +
+                       "', but the scene has no skeleton; add 'skeleton: {model: FILE, motion: "
+                       "FILE}'");
         if (holds(bodies, bone.name))
             refuse(scene, bone.line,
                    "'" + bone.name + "' is a body already; give the bone another name");

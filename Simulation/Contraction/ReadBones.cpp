@@ -80,7 +80,8 @@ fs::path existing_surface(const Keys& keys) {
 }
 
 Bone read_bone(const std::string& name, const YamlTree& tree, const fs::path& file) {
-    const Keys keys(tree, file, "the bone '" + name + "'", {"mesh", "surface", "tissue", "motion"});
+    const Keys keys(tree, file, "the bone '" + name + "'",
+                    {"mesh", "surface", "tissue", "motion", "body"});
     Bone bone;
     bone.name = name;
     bone.line = tree.key_line;
@@ -92,6 +93,13 @@ Bone read_bone(const std::string& name, const YamlTree& tree, const fs::path& fi
     else
         bone.tissue = keys.word("tissue", "a tissue's name or label value");
     if (const YamlTree* motion = keys.find("motion")) bone.motion = read_motion(*motion, file);
+    if (keys.has("body")) {
+        bone.body = keys.word("body", "the name of a body of the skeleton");
+        if (keys.has("motion"))
+            keys.refuse(*keys.find("motion"), "the bone '" + name +
+                                                  "' goes with a body of the skeleton and has a "
+                                                  "'motion' of its own; leave one out");
+    }
     return bone;
 }
 

@@ -12,7 +12,7 @@ namespace {
 using Kind = YamlTree::Kind;
 
 constexpr const char* kCurve =
-    "a number from 0 to 1, a list of [time, value], or {file: FILE, column: NAME}";
+    "a number from 0 to 1, a list of [time, value], or {file: FILE, muscle: NAME}";
 
 /// Both go by a curve; messages name the key and its value.
 struct Word {
@@ -45,10 +45,13 @@ Curve read_table(const YamlTree& tree, const fs::path& file, const Word& word) {
 Curve read_curve(const YamlTree& tree, const fs::path& file, const Word& word, Body& body) {
     if (tree.kind == Kind::list) return read_table(tree, file, word);
     if (tree.kind == Kind::map) {
-        const Keys keys(tree, file, word.place, {"file", "column"});
+        const Keys keys(tree, file, word.place, {"file", "muscle", "column"});
         body.activation_file = keys.existing_file("file");
-        const std::string column =
-            keys.has("column") ? keys.word("column", "a column's name or number").name : body.name;
+        std::string column = body.name;
+        if (keys.has("muscle") || keys.has("column")) {
+            const std::string how = keys.one_of({"muscle", "column"});
+            column = keys.word(how, "a column's name or number").name;
+        }
         return read_activation(body.activation_file, column);
     }
     const auto value = to_number(tree.text);

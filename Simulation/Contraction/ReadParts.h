@@ -19,6 +19,11 @@ namespace myotet::contraction {
 [[nodiscard]] std::vector<Attachment> read_attachments(const YamlTree& tree,
                                                        const std::filesystem::path& file);
 
+/// Reads `skeleton` and gives the bones that go with its bodies their motion: at 0 s they
+/// are where their meshes are, so that the scan shows the posture of that time. Sampled at
+/// the scene's steps and between them, at least every 5 ms.
+void move_bones(const YamlTree& tree, const std::filesystem::path& file, Scene& scene);
+
 /// Reads what drives a body's fibres: `activation`, or `excitation` with `rise` and `fall`,
 /// and `force_velocity`. Refuses each of them where there are no fibres.
 void read_drive(const Keys& keys, const Time& time, Body& body);

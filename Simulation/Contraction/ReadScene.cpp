@@ -106,8 +106,8 @@ void refuse(const Scene& scene, int line, const std::string& why) { refuse(scene
 Scene read_scene(const fs::path& file) {
     const YamlTree tree = repair::read_yaml(file);
     const Keys keys(tree, file, "the scene",
-                    {"title", "labels", "bodies", "materials", "bones", "attachments", "contact",
-                     "gravity", "time", "output"});
+                    {"title", "labels", "bodies", "materials", "bones", "skeleton", "attachments",
+                     "contact", "gravity", "time", "output"});
     Scene scene;
     scene.file = file;
     if (keys.has("title")) scene.title = keys.word("title", "a line of text").name;
@@ -119,6 +119,7 @@ Scene read_scene(const fs::path& file) {
     if (const YamlTree* part = keys.find("materials"))
         scene.materials = read_materials(*part, file, scene.time);
     if (const YamlTree* part = keys.find("bones")) scene.bones = read_bones(*part, file);
+    if (const YamlTree* part = keys.find("skeleton")) move_bones(*part, file, scene);
     if (const YamlTree* part = keys.find("attachments"))
         scene.attachments = read_attachments(*part, file);
     if (const YamlTree* part = keys.find("contact")) scene.contacts = read_contacts(*part, file);

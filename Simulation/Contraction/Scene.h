@@ -89,7 +89,8 @@ struct Bone {
     std::filesystem::path mesh;     ///< of tetrahedra, whose boundary is meant
     std::filesystem::path surface;  ///< closed
     Named tissue;                   ///< of the label volume, by name or value
-    Motion motion;
+    Named body;                     ///< of the skeleton, with which it goes; empty: none
+    Motion motion;                  ///< its own, or the body's
     int line = 0;
 };
 
@@ -118,6 +119,13 @@ struct Contact {
     int line = 0;
 };
 
+/// A skeleton that moves bones.
+struct MovingSkeleton {
+    std::filesystem::path model;   ///< .osim; empty: there is none
+    std::filesystem::path motion;  ///< .mot, .sto, .csv or .yaml; empty: keys of the scene
+    int line = 0;
+};
+
 enum class Scheme { quasi_static, backward_euler, generalized_alpha };
 
 struct Time {
@@ -141,6 +149,7 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Material> materials;  ///< the scene's, then models used by their own name
     std::vector<Bone> bones;
+    MovingSkeleton skeleton;
     std::vector<Attachment> attachments;
     std::vector<Contact> contacts;
     Vec3 gravity = Vec3::Zero();  ///< mm/s^2

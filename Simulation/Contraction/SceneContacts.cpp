@@ -80,8 +80,8 @@ void SceneContacts::forget() {
 std::vector<ContactReport> SceneContacts::reports() const {
     std::vector<ContactReport> all(scene_.contacts.size());
     for (const Side& side : sides_)
-        add(side.with_bone ? side.with_bone->report() : side.with_body->report(),
-            !side.with_bone, all[side.contact]);
+        add(side.with_bone ? side.with_bone->report() : side.with_body->report(), !side.with_bone,
+            all[side.contact]);
     return all;
 }
 

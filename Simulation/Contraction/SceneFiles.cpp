@@ -71,6 +71,8 @@ std::vector<fs::path> input_files(const Scene& scene, const fs::path& materials)
         add(body.activation_file);
     }
     for (const Material& material : scene.materials) add(set_of(scene, material, materials));
+    add(scene.skeleton.model);
+    add(scene.skeleton.motion);
     for (const Bone& bone : scene.bones) {
         add_mesh(bone.mesh);
         add(bone.surface);
