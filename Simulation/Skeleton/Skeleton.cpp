@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Skeleton/Skeleton.h"
 
+#include <algorithm>
+#include <string>
+
+#include "Core/Errors.h"
+#include "Core/Text.h"
+
+// The library is built with its checks, on which the layout of its states depends: seen
+// without them here, they would be torn.
+#undef NDEBUG
+
 namespace SimTK {
 /// Simbody 3.7's indices compare with numbers, which C++20 takes both ways round: two of them
 /// would be ambiguous without this.
@@ -10,11 +20,6 @@ bool operator==(const Index& a, const Index& b) { return int(a) == int(b); }
 }  // namespace SimTK
 
 #include <Simbody.h>
-
-#include <algorithm>
-#include <string>
-
-#include "Core/Errors.h"
 
 namespace myotet::skeleton {
 namespace {
@@ -42,6 +47,21 @@ SimTK::MassProperties mass_of(const Body& body) {
     const Vec3& c = body.mass_center;
     const Mat3 i =
         body.inertia + body.mass * (c.squaredNorm() * Mat3::Identity() - c * c.transpose());
+    const auto wrong = [&](const char* why) {
+        throw InputError("the body '" + body.name + "' " + why);
+    };
+    if (!(body.mass >= 0) || !c.allFinite() || !i.allFinite())
+        wrong("has a mass less than 0, or one, a mass center or an inertia that is not finite");
+    if (body.mass == 0 && !body.inertia.isZero(0))
+        wrong("has inertia but no mass; give it mass, or take its inertia away");
+    const double slop = 1e-8 * i.trace();  // of files that round, half of Simbody's
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, d = (a + 2) % 3;
+        if (!(i(a, a) <= i(b, b) + i(d, d) + slop) || !(2 * std::abs(i(b, d)) <= i(a, a) + slop))
+            wrong(
+                "has moments of inertia that no mass can have, one being more than the other two "
+                "together or a product too large; correct them");
+    }
     return {body.mass, to_simbody(c),
             SimTK::Inertia(i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2))};
 }
