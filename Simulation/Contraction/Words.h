@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "Core/Text.h"
+
 namespace myotet::contraction {
-
-/// A number as messages and tables show it: the shortest text that reads back the same.
-[[nodiscard]] std::string shown(double number);
-
-/// The number that the whole text is, "nan" and "inf" included; nothing otherwise.
-[[nodiscard]] std::optional<double> to_number(std::string_view text);
-
-/// "a, b, c"; of more than forty, the first ones "and 17 more".
-[[nodiscard]] std::string list_of(const std::vector<std::string>& words);
 
 /// "; did you mean 'x'? Known are x, y, z": the remedy for a word that is none of these.
 [[nodiscard]] std::string known_are(const std::string& word,
                                     const std::vector<std::string>& candidates);
-
-/// Throws InputError "file:line: why".
-[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& why);
-
-/// A whole file. Throws IoError when it cannot be read.
-[[nodiscard]] std::string read_whole(const std::filesystem::path& file);
 
 }  // namespace myotet::contraction

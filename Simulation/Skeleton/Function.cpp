@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
 
 namespace myotet::skeleton {
 namespace {
@@ -54,6 +56,53 @@ FunctionValue through_knots(const Function& f, double x) {
     return s;
 }
 
+/// An end's equation for the bends of a cubic spline: m_end + next m_next = right.
+struct End {
+    double next = 0, right = 0;
+};
+
+void check_knots(const std::vector<double>& x, const std::vector<double>& y) {
+    if (x.size() < 2 || y.size() != x.size())
+        throw InputError("a function through points needs at least two x and as many y, but has " +
+                         std::to_string(x.size()) + " and " + std::to_string(y.size()));
+    for (std::size_t i = 1; i < x.size(); ++i)
+        if (!(x[i] > x[i - 1]))
+            throw InputError("x of a function's points must ascend, but " + shown(x[i]) +
+                             " follows " + shown(x[i - 1]));
+}
+
+/// h_i-1 m_i-1 + 2 (h_i-1 + h_i) m_i + h_i m_i+1 = 6 (s_i - s_i-1), s the slopes between
+/// points, by elimination of a tridiagonal matrix.
+Function cubic_spline(std::vector<double> x, std::vector<double> y, End first, End last) {
+    const std::size_t n = x.size();
+    std::vector<double> m(n), upper(n);
+    upper[0] = first.next;
+    m[0] = first.right;
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
+        const double pivot = 2 * (before + after) - before * upper[i - 1];
+        const double right = 6 * ((y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before);
+        upper[i] = after / pivot;
+        m[i] = (right - before * m[i - 1]) / pivot;
+    }
+    m[n - 1] = (last.right - last.next * m[n - 2]) / (1 - last.next * upper[n - 2]);
+    for (std::size_t i = n - 1; i-- > 0;) m[i] -= upper[i] * m[i + 1];
+    Function f;
+    f.kind = FunctionKind::cubic_spline;
+    f.x = std::move(x);
+    f.y = std::move(y);
+    f.bend = std::move(m);
+    return f;
+}
+
+/// The third derivative of the cubic through four points from i on.
+double third_derivative(const std::vector<double>& x, const std::vector<double>& y, std::size_t i) {
+    const auto slope = [&](std::size_t k) { return (y[k + 1] - y[k]) / (x[k + 1] - x[k]); };
+    const double before = (slope(i + 1) - slope(i)) / (x[i + 2] - x[i]);
+    const double after = (slope(i + 2) - slope(i + 1)) / (x[i + 3] - x[i + 1]);
+    return 6 * (after - before) / (x[i + 3] - x[i]);
+}
+
 }  // namespace
 
 Function constant_function(double value) {
@@ -63,30 +112,39 @@ Function constant_function(double value) {
 }
 
 Function natural_spline(std::vector<double> x, std::vector<double> y) {
+    check_knots(x, y);
+    return cubic_spline(std::move(x), std::move(y), {}, {});
+}
+
+Function simm_spline(std::vector<double> x, std::vector<double> y) {
+    check_knots(x, y);
     const std::size_t n = x.size();
-    if (n < 2 || y.size() != n)
-        throw InputError("a spline needs at least two x and as many y, but has " +
-                         std::to_string(n) + " and " + std::to_string(y.size()));
-    for (std::size_t i = 1; i < n; ++i)
-        if (!(x[i] > x[i - 1]))
-            throw InputError("x of a spline must ascend, but " + std::to_string(x[i]) +
-                             " follows " + std::to_string(x[i - 1]));
-    // h_i-1 m_i-1 + 2 (h_i-1 + h_i) m_i + h_i m_i+1 = 6 (s_i - s_i-1),  m_0 = m_n-1 = 0,
-    // by elimination of a tridiagonal matrix.
-    std::vector<double> m(n, 0), upper(n, 0);
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
-        const double pivot = 2 * (before + after) - before * upper[i - 1];
-        const double right = 6 * ((y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before);
-        upper[i] = after / pivot;
-        m[i] = (right - before * m[i - 1]) / pivot;
+    if (n == 2) return natural_spline(std::move(x), std::move(y));
+    End first{-1, 0}, last{-1, 0};
+    if (n > 3) {
+        first.right = -(x[1] - x[0]) * third_derivative(x, y, 0);
+        last.right = (x[n - 1] - x[n - 2]) * third_derivative(x, y, n - 4);
     }
-    for (std::size_t i = n - 1; i-- > 1;) m[i] -= upper[i] * m[i + 1];
+    return cubic_spline(std::move(x), std::move(y), first, last);
+}
+
+Function piecewise_linear(std::vector<double> x, std::vector<double> y) {
+    check_knots(x, y);
     Function f;
-    f.kind = FunctionKind::natural_spline;
+    f.kind = FunctionKind::piecewise_linear;
     f.x = std::move(x);
     f.y = std::move(y);
-    f.bend = std::move(m);
+    return f;
+}
+
+Function with_input_unit(Function f, double factor) {
+    const std::size_t n = f.coefficients.size();
+    if (f.kind == FunctionKind::linear || f.kind == FunctionKind::polynomial)
+        for (std::size_t i = 0; i < n; ++i)
+            f.coefficients[i] /= std::pow(factor, static_cast<double>(n - 1 - i));
+    if (f.kind == FunctionKind::sine) f.coefficients[1] /= factor;
+    for (double& x : f.x) x *= factor;
+    for (double& bend : f.bend) bend /= factor * factor;
     return f;
 }
 
@@ -103,7 +161,7 @@ FunctionValue evaluate(const Function& f, double x) {
         case FunctionKind::sine:
             v = sine(f.coefficients, x);
             break;
-        case FunctionKind::natural_spline:
+        case FunctionKind::cubic_spline:
         case FunctionKind::piecewise_linear:
             v = through_knots(f, x);
             break;

@@ -11,7 +11,7 @@ enum class FunctionKind {
     linear,            ///< coefficients[0] x + coefficients[1]
     polynomial,        ///< coefficients[0] x^n + ... + coefficients[n]
     sine,              ///< coefficients: amplitude, omega, phase, offset
-    natural_spline,    ///< cubic through (x, y), straight beyond its ends
+    cubic_spline,      ///< through (x, y), straight on beyond its ends
     piecewise_linear,  ///< through (x, y), straight on beyond its ends
 };
 
@@ -20,13 +20,22 @@ struct Function {
     FunctionKind kind = FunctionKind::constant;
     std::vector<double> coefficients;
     std::vector<double> x, y;  ///< knots, x ascending
-    std::vector<double> bend;  ///< second derivatives at the knots of a natural spline
+    std::vector<double> bend;  ///< second derivatives at the knots of a cubic spline
     double scale = 1;
 };
 
 [[nodiscard]] Function constant_function(double value);
-/// x ascending, at least two. Throws InputError.
+/// Without bend at its ends. x ascending, at least two. Throws InputError.
 [[nodiscard]] Function natural_spline(std::vector<double> x, std::vector<double> y);
+/// As SIMM and OpenSim fit it: the third derivatives at its ends are those of the cubics
+/// through the first and the last four points [Forsythe77, sec. 4.4]; a parabola through
+/// three points. Throws InputError.
+[[nodiscard]] Function simm_spline(std::vector<double> x, std::vector<double> y);
+/// Straight between points and beyond them. Throws InputError.
+[[nodiscard]] Function piecewise_linear(std::vector<double> x, std::vector<double> y);
+
+/// g with g(factor x) = f(x): the function of the same quantity in another unit.
+[[nodiscard]] Function with_input_unit(Function f, double factor);
 
 /// The function and its first and second derivative.
 struct FunctionValue {

@@ -19,8 +19,8 @@ struct BodyRate {
 /// The bodies and joints of a model, placed and moved.
 class Skeleton {
 public:
-    /// Throws InputError when the model cannot move as told, such as a body at the end of a
-    /// chain that has no mass and yet may move.
+    /// At rest, as the coordinates say. Throws InputError when the model cannot move as told,
+    /// such as by a joint whose axes are parallel. Bodies need no mass.
     explicit Skeleton(const Model& model);
     ~Skeleton();
     Skeleton(Skeleton&&) noexcept;
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] std::vector<std::vector<BodyRate>> rates();
 
     /// Forces along the coordinates, N mm for angles and N for lengths, that make the
-    /// skeleton move so under gravity: M(q) q'' + C(q, q') - G(q).
+    /// skeleton move so under gravity: M(q) q'' + C(q, q') - G(q). It is placed there too.
     [[nodiscard]] std::vector<double> inverse_dynamics(std::span<const double> values,
                                                        std::span<const double> speeds,
                                                        std::span<const double> accelerations);
