@@ -18,7 +18,8 @@ constexpr int kColumns = 8;
 constexpr double kPrecision = 1e-13, kShiftPrecision = 1e-9;
 // A step of this many radii of curvature to begin with.
 constexpr double kFirstStep = 1.2;
-constexpr int kLongest = 100000;
+// A step shorter than this part of the way has lost the surface: the guess was no use.
+constexpr double kShortest = 1e-4;
 
 State rate_of(const WrapSurface& surface, const State& y) {
     const Vec3 x = y.head<3>(), along = y.segment<3>(3);
@@ -97,12 +98,14 @@ GeodesicEnd follow_geodesic(const WrapSurface& surface, const GeodesicPoint& sta
     const Vec3 g = surface.gradient(start.at);
     const double bend = std::abs(start.along.dot(surface.bend(start.at, start.along))) / g.norm();
     double step = left * bend > kFirstStep ? kFirstStep / bend : left;
-    for (int tries = 0; left > 0 && tries < kLongest; ++tries) {
+    while (left > 0) {
         const double now = std::min(step, left);
         const int columns = extrapolate(surface, y, direction * now, surface.size());
         if (columns == 0) {
             step = 0.5 * now;
-            continue;
+            if (step > kShortest * std::abs(length)) continue;
+            y.fill(std::nan(""));
+            break;
         }
         left -= now;
         if (columns < kColumns - 1) step = 1.5 * now;

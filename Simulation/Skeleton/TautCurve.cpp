@@ -13,7 +13,7 @@ using Vec2 = Eigen::Vector2d;
 using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 
-constexpr int kSteps = 40, kHalvings = 8;
+constexpr int kSteps = 25, kHalvings = 5;
 // A step of Newton's method below this, of the surface's size, leaves an error of its square.
 constexpr double kLastStep = 3e-7;
 // Residuals below this, of the surface's size, are rounding.
@@ -117,14 +117,16 @@ std::optional<TautCurve> tighten(const WrapSurface& surface, const Vec3& from, c
         if (far < kLastStep * size || newton.error.norm() < kRounding * size)
             return finish(surface, curve, step);
         if (far > kFarthest * size) step *= kFarthest * size / far;
+        if (!(std::abs(curve.length + step[3]) < longest)) return std::nullopt;
         TautCurve next;
         Newton next_newton;
-        if (!(std::abs(curve.length + step[3]) < longest)) return std::nullopt;
-        for (int half = 0; half < kHalvings; ++half, step *= 0.5) {
+        int half = 0;
+        for (; half < kHalvings; ++half, step *= 0.5) {
             next = step_to(surface, curve, step);
             next_newton = newton_of(surface, next, from, to);
             if (next_newton.error.norm() < newton.error.norm()) break;
         }
+        if (half == kHalvings) return std::nullopt;
         curve = next;
         newton = next_newton;
     }

@@ -85,18 +85,19 @@ public:
         const auto curve = tighten(surface_, ends_.from, ends_.to, guess.curve);
         if (!curve || !(curve->length > 0) || !goes_ahead(surface_, *curve, ends_.from, ends_.to))
             return;
-        const WrapContact contact = contact_of(*curve);
-        const double length = wrapped_length(contact, ends_.from, ends_.to);
+        const double length = wrapped_length(contact_of(*curve), ends_.from, ends_.to);
         if (!(length < kLonger * guess.length)) return;
         const Vec3 middle = follow_geodesic(surface_, curve->start, 0.5 * curve->length).point.at;
         if (surface_.is_torus() && !through_hole(middle)) return;
         if (!allows(middle) || (found && !(length < length_))) return;
+        found = true;
         length_ = length;
-        found = contact;
+        contact = contact_of(*curve);
         side = middle.normalized();
     }
 
-    std::optional<WrapContact> found;
+    bool found = false;
+    WrapContact contact;
     Vec3 side = Vec3::Zero();
 
 private:
@@ -126,7 +127,7 @@ Wrap begin(const WrapObject& object, const WrapSurface& surface, const Ends& end
     }
     if (!choice.found) return wrap;
     wrap.touch = WrapTouch::touching;
-    wrap.contact = *choice.found;
+    wrap.contact = choice.contact;
     wrap.side = choice.side;
     return wrap;
 }

@@ -17,7 +17,7 @@ constexpr int kPieces = 8;
 // Points of the straight piece beside which the ring is looked for, and halvings after.
 constexpr int kSamples = 64, kHalvings = 40;
 // How far along the ring from there a path is tried, rad.
-constexpr std::array kAlongRing{0.0, 0.15, -0.15, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.3, -1.3};
+constexpr std::array kAlongRing{0.0, 0.15, -0.15, 0.3, -0.3, 0.7, -0.7};
 
 /// Length of half an ellipse's arc from `angle` on, x and y its (skew) half axes.
 double arc_length(const Vec3& x, const Vec3& y, double angle, double arc) {
