@@ -2,6 +2,7 @@
 #include "Activation/FitCurves.h"
 
 #include <ceres/cost_function.h>
+#include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -30,6 +31,8 @@ constexpr int kDenseCoefficients = 60;
 constexpr double kAtBound = 1e-9;
 // Of the cost at the end, beside the first: costs are sums of squares.
 constexpr double kSlope = 1e-6;
+// Of holding coefficients at bounds; most problems need two or three.
+constexpr int kRounds = 50;
 
 // A term at a time as a function of the four columns of coefficients that matter there.
 class LocalCost final : public ceres::CostFunction {
@@ -72,6 +75,27 @@ private:
     Evaluation evaluate_;
 };
 
+struct Bounds {
+    VectorXd lowest, highest;  ///< a muscle
+
+    [[nodiscard]] bool low(Index i, double c) const { return c <= lowest[i] + kAtBound; }
+    [[nodiscard]] bool high(Index i, double c) const { return c >= highest[i] - kAtBound; }
+    /// Whether a coefficient is at a bound beyond which the cost would fall.
+    [[nodiscard]] bool stop(Index i, double c, double slope) const {
+        return (low(i, c) && slope > 0) || (high(i, c) && slope < 0);
+    }
+};
+
+// The largest that no bound stops.
+double free_slope(const FitValue& value, const ActivationCurves& curves, const Bounds& bounds) {
+    double largest = 0;
+    for (Index j = 0; j < curves.coefficients.cols(); ++j)
+        for (Index i = 0; i < curves.coefficients.rows(); ++i)
+            if (!bounds.stop(i, curves.coefficients(i, j), value.slope(i, j)))
+                largest = std::max(largest, std::abs(value.slope(i, j)));
+    return largest;
+}
+
 // All terms over the coefficients of some curves, which must outlive it.
 class Fit {
 public:
@@ -91,18 +115,20 @@ public:
         add_limits();
     }
 
-    void set_bounds(const std::vector<double>& lowest, const std::vector<double>& highest) {
+    void set_bounds(const Bounds& bounds) {
         for (Index j = 0; j < curves_.coefficients.cols(); ++j)
             for (int i = 0; i < muscles_; ++i) {
                 double* column = curves_.coefficients.col(j).data();
-                problem_.SetParameterLowerBound(column, i, lowest[static_cast<std::size_t>(i)]);
-                problem_.SetParameterUpperBound(column, i, highest[static_cast<std::size_t>(i)]);
+                problem_.SetParameterLowerBound(column, i, bounds.lowest[i]);
+                problem_.SetParameterUpperBound(column, i, bounds.highest[i]);
             }
     }
 
-    [[nodiscard]] ceres::Solver::Summary solve() {
+    // Levenberg and Marquardt's steps, projected onto the bounds, end early where bounds stop
+    // part of a step. So coefficients at bounds that the slope pushes outwards are held, the rest
+    // is solved again, and so on until none changes sides.
+    void solve(const Bounds& bounds, FitSummary& out) {
         ceres::Solver::Options how;
-        how.max_num_iterations = options_.iterations;
         how.linear_solver_type = curves_.coefficients.size() > kDenseCoefficients
                                      ? ceres::SPARSE_NORMAL_CHOLESKY
                                      : ceres::DENSE_QR;
@@ -112,9 +138,19 @@ public:
         how.function_tolerance = 1e-14;
         how.gradient_tolerance = 1e-12;
         how.parameter_tolerance = 1e-12;
-        ceres::Solver::Summary summary;
-        ceres::Solve(how, &problem_, &summary);
-        return summary;
+        for (int round = 0; round < kRounds && out.iterations < options_.iterations; ++round) {
+            how.max_num_iterations = options_.iterations - out.iterations;
+            ceres::Solver::Summary summary;
+            ceres::Solve(how, &problem_, &summary);
+            if (round == 0) out.first_cost = summary.initial_cost;
+            out.iterations += static_cast<int>(summary.iterations.size());
+            set_free();
+            const FitValue now = value();
+            out.cost = now.cost;
+            out.slope = free_slope(now, curves_, bounds);
+            if (out.slope <= kSlope * std::max(1.0, out.first_cost)) break;
+            hold(now, bounds);
+        }
     }
 
     [[nodiscard]] FitValue value() {
@@ -126,6 +162,27 @@ public:
     }
 
 private:
+    void set_free() {
+        for (Index j = 0; j < curves_.coefficients.cols(); ++j) {
+            double* column = curves_.coefficients.col(j).data();
+            problem_.SetParameterBlockVariable(column);
+            problem_.SetManifold(column, nullptr);
+        }
+    }
+
+    void hold(const FitValue& now, const Bounds& bounds) {
+        for (Index j = 0; j < curves_.coefficients.cols(); ++j) {
+            std::vector<int> held;
+            for (int i = 0; i < muscles_; ++i)
+                if (bounds.stop(i, curves_.coefficients(i, j), now.slope(i, j))) held.push_back(i);
+            double* column = curves_.coefficients.col(j).data();
+            if (static_cast<int>(held.size()) == muscles_)
+                problem_.SetParameterBlockConstant(column);
+            else if (!held.empty())
+                problem_.SetManifold(column, new ceres::SubsetManifold(muscles_, held));
+        }
+    }
+
     void add(double time, int residuals, LocalCost::Evaluation evaluate) {
         const SplineBasis::Local local = curves_.basis.at(time);
         std::vector<double*> columns;
@@ -217,23 +274,6 @@ void measure(const FitTargets& targets, const FitOptions& options, const Activat
     }
 }
 
-// The largest slope that bounds do not stop, in parts of what would matter.
-double free_slope(const FitValue& value, const ActivationCurves& curves,
-                  const std::vector<double>& lowest, const std::vector<double>& highest,
-                  bool& held) {
-    double largest = 0;
-    for (Index j = 0; j < curves.coefficients.cols(); ++j)
-        for (Index i = 0; i < curves.coefficients.rows(); ++i) {
-            const double c = curves.coefficients(i, j), slope = value.slope(i, j);
-            const auto muscle = static_cast<std::size_t>(i);
-            const bool low = c <= lowest[muscle] + kAtBound, high = c >= highest[muscle] - kAtBound;
-            held = held || low || high;
-            if ((low && slope > 0) || (high && slope < 0)) continue;
-            largest = std::max(largest, std::abs(slope));
-        }
-    return largest;
-}
-
 }  // namespace
 
 void FitTargets::validate() const {
@@ -285,24 +325,26 @@ CurveFit fit_curves(const FitTargets& targets, const FitOptions& options) {
     targets.validate();
     const std::size_t n = targets.demands.front().muscles();
     options.validate(n);
-    const std::vector<double> lowest =
-        options.lowest.empty() ? std::vector<double>(n, 0) : options.lowest;
-    const std::vector<double> highest =
-        options.highest.empty() ? std::vector<double>(n, 1) : options.highest;
+    const auto m = static_cast<Index>(n);
+    const auto given = [m](const std::vector<double>& bound, double otherwise) -> VectorXd {
+        if (bound.empty()) return VectorXd::Constant(m, otherwise);
+        return Eigen::Map<const VectorXd>(bound.data(), m);
+    };
+    const Bounds bounds{given(options.lowest, 0), given(options.highest, 1)};
     CurveFit out;
     out.curves.basis = basis_of(targets, options);
-    out.curves.coefficients.resize(static_cast<Index>(n), out.curves.basis.count());
-    for (std::size_t i = 0; i < n; ++i)
-        out.curves.coefficients.row(static_cast<Index>(i))
-            .setConstant(lowest[i] + 0.1 * (highest[i] - lowest[i]));
+    const VectorXd start = 0.9 * bounds.lowest + 0.1 * bounds.highest;
+    out.curves.coefficients = start.replicate(1, out.curves.basis.count());
     Fit fit(targets, options, out.curves);
-    fit.set_bounds(lowest, highest);
-    const ceres::Solver::Summary solved = fit.solve();
+    fit.set_bounds(bounds);
     FitSummary& summary = out.summary;
-    summary.iterations = static_cast<int>(solved.iterations.size());
-    summary.first_cost = solved.initial_cost;
-    summary.cost = solved.final_cost;
-    summary.slope = free_slope(fit.value(), out.curves, lowest, highest, summary.held_by_bounds);
+    fit.solve(bounds, summary);
+    for (Index j = 0; j < out.curves.coefficients.cols(); ++j)
+        for (Index i = 0; i < m; ++i) {
+            const double c = out.curves.coefficients(i, j);
+            summary.held_by_bounds =
+                summary.held_by_bounds || bounds.low(i, c) || bounds.high(i, c);
+        }
     measure(targets, options, out.curves, summary);
     const bool flat = summary.slope <= kSlope * std::max(1.0, summary.first_cost);
     summary.status = flat ? Status::converged : Status::not_converged;

@@ -34,7 +34,7 @@ FitTargets simulated(int coordinates, int muscles) {
             demand.passive.push_back(5 + i);
             forces[i] = demand.passive.back() + demand.gains.back() * known(i, t);
             for (int c = 0; c < coordinates; ++c)
-                demand.arms(c, i) = 30 * std::cos(1.7 * i + 2.3 * c + 0.4 * t);
+                demand.arms(c, i) = 30 * std::cos((1 + c) * (0.9 * i + 0.3) + 0.4 * t);
         }
         const Eigen::VectorXd torques = demand.arms * forces;
         demand.torques.assign(torques.data(), torques.data() + coordinates);
