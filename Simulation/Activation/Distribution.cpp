@@ -25,21 +25,21 @@ std::string name_of(const std::vector<std::string>& names, std::size_t i, const 
 }
 
 // Forces, balance and what is left over, from the activations.
-void account(const Instant& instant, const Shares& shares, const std::vector<Balance>& kinds,
+void account(const Demand& demand, const Shares& shares, const std::vector<Balance>& kinds,
              Distribution& out) {
-    const auto m = static_cast<Eigen::Index>(instant.coordinates());
-    Eigen::VectorXd pulled(static_cast<Eigen::Index>(instant.muscles()));
-    for (std::size_t i = 0; i < instant.muscles(); ++i) {
-        const double passive = instant.passive.empty() ? 0 : instant.passive[i];
-        out.forces.push_back(passive + instant.gains[i] * out.activations[i]);
+    const auto m = static_cast<Eigen::Index>(demand.coordinates());
+    Eigen::VectorXd pulled(static_cast<Eigen::Index>(demand.muscles()));
+    for (std::size_t i = 0; i < demand.muscles(); ++i) {
+        const double passive = demand.passive.empty() ? 0 : demand.passive[i];
+        out.forces.push_back(passive + demand.gains[i] * out.activations[i]);
         pulled[static_cast<Eigen::Index>(i)] = out.forces.back();
     }
-    const Eigen::VectorXd made = instant.arms * pulled;
-    out.reserves.assign(instant.coordinates(), 0);
-    out.missing.assign(instant.coordinates(), 0);
+    const Eigen::VectorXd made = demand.arms * pulled;
+    out.reserves.assign(demand.coordinates(), 0);
+    out.missing.assign(demand.coordinates(), 0);
     for (Eigen::Index c = 0; c < m; ++c) {
         const auto at = static_cast<std::size_t>(c);
-        const double left = instant.torques[at] - made[c], explained = shares.lack[at];
+        const double left = demand.torques[at] - made[c], explained = shares.lack[at];
         double rest = left - explained;
         if (kinds[at] == Balance::held) {
             out.reserves[at] = left;
@@ -78,21 +78,21 @@ void judge(const Shares& shares, const DistributionOptions& options, Distributio
     out.message = text.str();
 }
 
-Distribution distribute_valid(const Instant& instant, const DistributionOptions& options) {
-    const Shares shares = solve_shares(instant, options);
+Distribution distribute_valid(const Demand& demand, const DistributionOptions& options) {
+    const Shares shares = solve_shares(demand, options);
     Distribution out;
     out.activations = shares.activations;
     out.amounts = shares.amounts;
     out.iterations = shares.iterations;
     out.residual = shares.residual;
     out.prices = shares.prices;
-    for (std::size_t i = 0; i < instant.muscles(); ++i) {
+    for (std::size_t i = 0; i < demand.muscles(); ++i) {
         const double below = out.activations[i] - shares.lowest[i];
         const double above = shares.highest[i] - out.activations[i];
         out.bounds.push_back(below <= kAtBound ? -1 : above <= kAtBound ? 1 : 0);
     }
-    out.cost = cost_of(instant, options, out.activations);
-    account(instant, shares, kinds_of_balance(options, instant.coordinates()), out);
+    out.cost = cost_of(demand, options, out.activations);
+    account(demand, shares, kinds_of_balance(options, demand.coordinates()), out);
     judge(shares, options, out);
     return out;
 }
@@ -125,39 +125,39 @@ void DistributionOptions::validate(std::size_t muscles, std::size_t coordinates)
             synergies.colwise().sum().minCoeff(), "each must have a muscle");
 }
 
-Distribution distribute(const Instant& instant, const DistributionOptions& options) {
-    instant.validate();
-    options.validate(instant.muscles(), instant.coordinates());
-    return distribute_valid(instant, options);
+Distribution distribute(const Demand& demand, const DistributionOptions& options) {
+    demand.validate();
+    options.validate(demand.muscles(), demand.coordinates());
+    return distribute_valid(demand, options);
 }
 
-std::vector<Distribution> distribute(std::span<const Instant> instants,
+std::vector<Distribution> distribute(std::span<const Demand> demands,
                                      const DistributionOptions& options, ProgressSink& progress) {
-    for (const Instant& instant : instants) {
-        instant.validate();
-        options.validate(instant.muscles(), instant.coordinates());
+    for (const Demand& demand : demands) {
+        demand.validate();
+        options.validate(demand.muscles(), demand.coordinates());
     }
-    std::vector<Distribution> all(instants.size());
+    std::vector<Distribution> all(demands.size());
     progress.report("muscle forces", 0);
-    parallel_for(0, instants.size(), 16, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) all[i] = distribute_valid(instants[i], options);
+    parallel_for(0, demands.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) all[i] = distribute_valid(demands[i], options);
         progress.check();
     });
     progress.report("muscle forces", 1);
     return all;
 }
 
-Distribution distribute(const Instant& instant, const PullOf& pull,
+Distribution distribute(const Demand& demand, const PullOf& pull,
                         const DistributionOptions& options) {
     constexpr double kChange = 1e-10;
-    instant.validate();
-    options.validate(instant.muscles(), instant.coordinates());
-    Instant tangent = instant;
-    tangent.passive.assign(instant.muscles(), 0);
-    std::vector<double> a(instant.muscles(), 0.1);
+    demand.validate();
+    options.validate(demand.muscles(), demand.coordinates());
+    Demand tangent = demand;
+    tangent.passive.assign(demand.muscles(), 0);
+    std::vector<double> a(demand.muscles(), 0.1);
     for (std::size_t i = 0; i < a.size(); ++i)
-        a[i] = std::clamp(a[i], instant.lowest.empty() ? 0 : instant.lowest[i],
-                          instant.highest.empty() ? 1 : instant.highest[i]);
+        a[i] = std::clamp(a[i], demand.lowest.empty() ? 0 : demand.lowest[i],
+                          demand.highest.empty() ? 1 : demand.highest[i]);
     Distribution found;
     double before = 1, step = 1;
     int iterations = 0;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "Activation/Instant.h"
+#include "Activation/Demand.h"
 
 namespace myotet {
 class ProgressSink;
@@ -35,7 +35,7 @@ struct DistributionOptions {
     /// (muscle, synergy), none negative: activations are synergies times amounts that are not
     /// negative. Empty: each muscle is driven on its own.
     Eigen::MatrixXd synergies;
-    /// Of the squared differences from Instant::measured, beside the dearest muscle at its
+    /// Of the squared differences from Demand::measured, beside the dearest muscle at its
     /// most; 0: they do not matter.
     double tracking = 0;
     double tolerance = 1e-9;  ///< see Distribution::residual
@@ -74,10 +74,10 @@ struct Distribution {
 /// nearest (least sum of missing torque by capacity). Throws InputError.
 /// Cost: O(muscles coordinates^2) an iteration, some 10 to 20; 6 muscles and 2 coordinates
 /// some 30 us.
-[[nodiscard]] Distribution distribute(const Instant& instant, const DistributionOptions& options);
+[[nodiscard]] Distribution distribute(const Demand& demand, const DistributionOptions& options);
 
 /// The same of many times, each on its own; same bytes on any number of threads.
-[[nodiscard]] std::vector<Distribution> distribute(std::span<const Instant> instants,
+[[nodiscard]] std::vector<Distribution> distribute(std::span<const Demand> demands,
                                                    const DistributionOptions& options,
                                                    ProgressSink& progress);
 
@@ -90,8 +90,8 @@ using PullOf = std::function<Pull(std::size_t muscle, double activation)>;
 /// Of muscles whose pull is not proportional to activation, such as behind elastic tendons:
 /// a sequence of problems as above, linearised where the one before ended [Nocedal and
 /// Wright 2006, ch. 18], until activations change by less than 1e-10. gains and passive of
-/// the instant are not used.
-[[nodiscard]] Distribution distribute(const Instant& instant, const PullOf& pull,
+/// the demand are not used.
+[[nodiscard]] Distribution distribute(const Demand& demand, const PullOf& pull,
                                       const DistributionOptions& options);
 
 }  // namespace myotet::activation

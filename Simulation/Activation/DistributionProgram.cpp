@@ -26,31 +26,30 @@ Index to_index(std::size_t i) { return static_cast<Index>(i); }
 struct Term {
     double weight, offset, scale;
 };
-Term term(const Instant& instant, const DistributionOptions& options, std::size_t i) {
+Term term(const Demand& demand, const DistributionOptions& options, std::size_t i) {
     const double weight = options.weights.empty() ? 1 : options.weights[i];
     if (options.criterion == Criterion::activation) return {weight, 0, 1};
-    const double passive = instant.passive.empty() ? 0 : instant.passive[i];
-    return {weight, passive / options.areas[i], instant.gains[i] / options.areas[i]};
+    const double passive = demand.passive.empty() ? 0 : demand.passive[i];
+    return {weight, passive / options.areas[i], demand.gains[i] / options.areas[i]};
 }
 
 // Builds the program, and reads its solution.
 class Builder {
 public:
-    Builder(const Instant& instant, const DistributionOptions& options)
-        : instant_(instant),
+    Builder(const Demand& demand, const DistributionOptions& options)
+        : demand_(demand),
           options_(options),
-          kinds_(kinds_of_balance(options, instant.coordinates())),
+          kinds_(kinds_of_balance(options, demand.coordinates())),
           torques_(
-              instant.arms *
-              Eigen::Map<const VectorXd>(instant.gains.data(), instant.arms.cols()).asDiagonal()),
-          asked_(Eigen::Map<const VectorXd>(instant.torques.data(), instant.arms.rows())) {
-        const std::size_t n = instant.muscles();
-        shares_.lowest = instant.lowest.empty() ? std::vector<double>(n, 0) : instant.lowest;
-        shares_.highest = instant.highest.empty() ? std::vector<double>(n, 1) : instant.highest;
+              demand.arms *
+              Eigen::Map<const VectorXd>(demand.gains.data(), demand.arms.cols()).asDiagonal()),
+          asked_(Eigen::Map<const VectorXd>(demand.torques.data(), demand.arms.rows())) {
+        const std::size_t n = demand.muscles();
+        shares_.lowest = demand.lowest.empty() ? std::vector<double>(n, 0) : demand.lowest;
+        shares_.highest = demand.highest.empty() ? std::vector<double>(n, 1) : demand.highest;
         shares_.activations = shares_.lowest;
-        if (!instant.passive.empty())
-            asked_ -=
-                instant.arms * Eigen::Map<const VectorXd>(instant.passive.data(), to_index(n));
+        if (!demand.passive.empty())
+            asked_ -= demand.arms * Eigen::Map<const VectorXd>(demand.passive.data(), to_index(n));
         scale();
         for (std::size_t c = 0; c < kinds_.size(); ++c)
             if (kinds_[c] != Balance::held) rows_.push_back(to_index(c));
@@ -69,8 +68,8 @@ public:
 private:
     void scale() {
         double dearest = 0;
-        for (std::size_t i = 0; i < instant_.muscles(); ++i) {
-            const Term t = term(instant_, options_, i);
+        for (std::size_t i = 0; i < demand_.muscles(); ++i) {
+            const Term t = term(demand_, options_, i);
             dearest = std::max(
                 dearest, t.weight * std::pow(std::abs(t.offset + t.scale * shares_.highest[i]),
                                              options_.exponent));
@@ -83,21 +82,21 @@ private:
     }
 
     [[nodiscard]] bool matters(std::size_t i) const {
-        const Term t = term(instant_, options_, i);
-        return t.scale != 0 || instant_.gains[i] != 0 || tracked(i);
+        const Term t = term(demand_, options_, i);
+        return t.scale != 0 || demand_.gains[i] != 0 || tracked(i);
     }
     [[nodiscard]] bool tracked(std::size_t i) const {
-        return options_.tracking > 0 && !instant_.measured.empty() &&
-               !std::isnan(instant_.measured[i]);
+        return options_.tracking > 0 && !demand_.measured.empty() &&
+               !std::isnan(demand_.measured[i]);
     }
     void set_cost(ConvexProgram& program, Index x, std::size_t muscle) const {
-        const Term t = term(instant_, options_, muscle);
+        const Term t = term(demand_, options_, muscle);
         program.cost[x] = t.weight / dearest_;
         program.offset[x] = t.offset;
         program.scale[x] = t.scale;
         if (!tracked(muscle)) return;
         program.pull[x] = options_.tracking;
-        program.towards[x] = instant_.measured[muscle];
+        program.towards[x] = demand_.measured[muscle];
     }
     [[nodiscard]] static ConvexProgram sized(Index x, Index rows, Index y) {
         ConvexProgram p;
@@ -120,7 +119,7 @@ private:
     // Unknowns are the activations that are not given.
     ConvexProgram by_muscles() {
         VectorXd rest = asked_;
-        for (std::size_t i = 0; i < instant_.muscles(); ++i) {
+        for (std::size_t i = 0; i < demand_.muscles(); ++i) {
             if (shares_.lowest[i] < shares_.highest[i] && matters(i))
                 free_.push_back(i);
             else
@@ -204,7 +203,7 @@ private:
         shares_.iterations = found.iterations;
     }
 
-    const Instant& instant_;
+    const Demand& demand_;
     const DistributionOptions& options_;
     std::vector<Balance> kinds_;
     MatrixXd torques_;         // (coordinate, muscle): at full activation
@@ -225,15 +224,15 @@ std::vector<Balance> kinds_of_balance(const DistributionOptions& options, std::s
     return kinds;
 }
 
-Shares solve_shares(const Instant& instant, const DistributionOptions& options) {
-    return Builder(instant, options).solve();
+Shares solve_shares(const Demand& demand, const DistributionOptions& options) {
+    return Builder(demand, options).solve();
 }
 
-double cost_of(const Instant& instant, const DistributionOptions& options,
+double cost_of(const Demand& demand, const DistributionOptions& options,
                const std::vector<double>& activations) {
     double sum = 0;
     for (std::size_t i = 0; i < activations.size(); ++i) {
-        const Term t = term(instant, options, i);
+        const Term t = term(demand, options, i);
         sum += t.weight * std::pow(std::abs(t.offset + t.scale * activations[i]), options.exponent);
     }
     return sum;

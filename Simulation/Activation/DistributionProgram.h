@@ -30,10 +30,10 @@ struct Shares {
 
 /// Inputs valid. Muscles whose activation is given, by equal bounds, are no unknowns; nor are
 /// those of which nothing depends.
-[[nodiscard]] Shares solve_shares(const Instant& instant, const DistributionOptions& options);
+[[nodiscard]] Shares solve_shares(const Demand& demand, const DistributionOptions& options);
 
 /// As the criterion says, of all muscles.
-[[nodiscard]] double cost_of(const Instant& instant, const DistributionOptions& options,
+[[nodiscard]] double cost_of(const Demand& demand, const DistributionOptions& options,
                              const std::vector<double>& activations);
 
 }  // namespace myotet::activation

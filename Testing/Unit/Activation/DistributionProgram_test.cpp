@@ -18,9 +18,9 @@ namespace myotet::activation {
 namespace {
 
 // The least sum of squares by trying each set of active bounds.
-std::optional<std::vector<double>> by_all_sets(const Instant& instant) {
-    const auto n = static_cast<int>(instant.muscles());
-    const Eigen::Index m = instant.arms.rows();
+std::optional<std::vector<double>> by_all_sets(const Demand& demand) {
+    const auto n = static_cast<int>(demand.muscles());
+    const Eigen::Index m = demand.arms.rows();
     int sets = 1;
     for (int i = 0; i < n; ++i) sets *= 3;
     for (int set = 0; set < sets; ++set) {
@@ -34,14 +34,14 @@ std::optional<std::vector<double>> by_all_sets(const Instant& instant) {
             K(i, i) = state.back() == 0 ? 2 : 1;
             right[i] = state.back() == 2 ? 1 : 0;
             for (Eigen::Index c = 0; c < m; ++c) {
-                const double torque = instant.arms(c, i) * instant.gains[at] * 1e-4;
+                const double torque = demand.arms(c, i) * demand.gains[at] * 1e-4;
                 if (state.back() == 0) K(i, n + c) = -torque;
                 K(n + c, i) = torque;
-                right[n + c] -= instant.arms(c, i) * instant.passive[at] * 1e-4;
+                right[n + c] -= demand.arms(c, i) * demand.passive[at] * 1e-4;
             }
         }
         for (Eigen::Index c = 0; c < m; ++c)
-            right[n + c] += instant.torques[static_cast<std::size_t>(c)] * 1e-4;
+            right[n + c] += demand.torques[static_cast<std::size_t>(c)] * 1e-4;
         const Eigen::FullPivLU<Eigen::MatrixXd> lu(K);
         if (!lu.isInvertible()) continue;
         const Eigen::VectorXd x = lu.solve(right);
@@ -49,8 +49,8 @@ std::optional<std::vector<double>> by_all_sets(const Instant& instant) {
         for (int i = 0; i < n; ++i) {
             double slope = 2 * x[i];
             for (Eigen::Index c = 0; c < m; ++c)
-                slope -= instant.arms(c, i) * instant.gains[static_cast<std::size_t>(i)] * 1e-4 *
-                         x[n + c];
+                slope -=
+                    demand.arms(c, i) * demand.gains[static_cast<std::size_t>(i)] * 1e-4 * x[n + c];
             const int s = state[static_cast<std::size_t>(i)];
             optimal = optimal && (s == 0   ? x[i] >= 0 && x[i] <= 1
                                   : s == 1 ? slope >= 0
@@ -63,19 +63,19 @@ std::optional<std::vector<double>> by_all_sets(const Instant& instant) {
 
 // Of two coordinates, by the dual: a_i = (lambda . torque_i / p)^(1 / (p - 1)) within bounds,
 // where each balance grows with its own multiplier. Nested bisection.
-std::vector<double> by_bisection(const Instant& instant, double p) {
-    const auto n = static_cast<Eigen::Index>(instant.muscles());
-    Eigen::Vector2d asked(instant.torques[0], instant.torques[1]), lambda(0, 0);
+std::vector<double> by_bisection(const Demand& demand, double p) {
+    const auto n = static_cast<Eigen::Index>(demand.muscles());
+    Eigen::Vector2d asked(demand.torques[0], demand.torques[1]), lambda(0, 0);
     for (Eigen::Index i = 0; i < n; ++i)
-        asked -= instant.arms.col(i) * instant.passive[static_cast<std::size_t>(i)];
-    std::vector<double> a(instant.muscles());
+        asked -= demand.arms.col(i) * demand.passive[static_cast<std::size_t>(i)];
+    std::vector<double> a(demand.muscles());
     const auto excess = [&](int c) {
         double sum = -asked[c];
         for (Eigen::Index i = 0; i < n; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            const double slope = lambda.dot(instant.arms.col(i)) * instant.gains[at] / p;
+            const double slope = lambda.dot(demand.arms.col(i)) * demand.gains[at] / p;
             a[at] = slope <= 0 ? 0 : std::min(1.0, std::pow(slope, 1 / (p - 1)));
-            sum += instant.arms(c, i) * instant.gains[at] * a[at];
+            sum += demand.arms(c, i) * demand.gains[at] * a[at];
         }
         return sum;
     };
@@ -99,10 +99,10 @@ TEST(DistributionProgram, IsTheBestOfAllActiveSets) {
     std::mt19937 random(1);
     int at_bounds = 0;
     for (int trial = 0; trial < 60; ++trial) {
-        const Instant instant = random_instant(random, 1 + trial % 3, 4 + trial % 3);
-        const auto expected = by_all_sets(instant);
+        const Demand demand = random_demand(random, 1 + trial % 3, 4 + trial % 3);
+        const auto expected = by_all_sets(demand);
         ASSERT_TRUE(expected);
-        const Distribution found = distribute(instant, {});
+        const Distribution found = distribute(demand, {});
         expect_solved(found);
         expect_same(found.activations, *expected, kSame);
         for (const int bound : found.bounds) at_bounds += bound != 0;
@@ -114,25 +114,25 @@ TEST(DistributionProgram, IsTheDualsForAnyExponent) {
     std::mt19937 random(2);
     for (int trial = 0; trial < 40; ++trial)
         for (const double p : {1.5, 2.0, 3.0, 5.0}) {
-            const Instant instant = random_instant(random, 2, 6);
-            const Distribution found = distribute(instant, {.exponent = p});
+            const Demand demand = random_demand(random, 2, 6);
+            const Distribution found = distribute(demand, {.exponent = p});
             expect_solved(found);
             // Of high powers small activations hardly cost: 1e-10 in cost is more in them.
-            expect_same(found.activations, by_bisection(instant, p), p > 3 ? 2e-3 : 2e-5);
+            expect_same(found.activations, by_bisection(demand, p), p > 3 ? 2e-3 : 2e-5);
         }
 }
 
 TEST(DistributionProgram, OfManyTimesTakesLittleAndTheSameEach) {
     std::mt19937 random(8);
-    std::vector<Instant> instants;
-    for (int i = 0; i < 100; ++i) instants.push_back(random_instant(random, 2, 6));
+    std::vector<Demand> demands;
+    for (int i = 0; i < 100; ++i) demands.push_back(random_demand(random, 2, 6));
     SilentProgress silent;
     const ThreadLimit one(1);
     std::vector<Distribution> all;
     double least = std::numeric_limits<double>::infinity();
     for (int run = 0; run < 5; ++run) {
         const auto begin = std::chrono::steady_clock::now();
-        all = distribute(instants, {}, silent);
+        all = distribute(demands, {}, silent);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
         least = std::min(least, taken.count());
     }
@@ -141,7 +141,7 @@ TEST(DistributionProgram, OfManyTimesTakesLittleAndTheSameEach) {
     RecordProperty("seconds", std::to_string(least));
     for (std::size_t i = 0; i < all.size(); ++i) {
         expect_solved(all[i]);
-        EXPECT_EQ(all[i].activations, distribute(instants[i], {}).activations);
+        EXPECT_EQ(all[i].activations, distribute(demands[i], {}).activations);
     }
 }
 

@@ -78,16 +78,16 @@ TEST(UnitsOf, ElasticUnitsShareATorque) {
     other.tendon_slack_length = 270;
     const std::vector<muscle::MuscleTendon> units = {unit, unit_of(other).unit};
     const std::vector<double> lengths = {53.5 + 80, 270 + 88};
-    const Instant instant{.torques = {12000}, .arms = Eigen::RowVector2d(20, 35), .gains = {0, 0}};
+    const Demand demand{.torques = {12000}, .arms = Eigen::RowVector2d(20, 35), .gains = {0, 0}};
     const PullOf pull = [&](std::size_t i, double a) -> Pull {
         const muscle::ElasticPull at = muscle::elastic_pull(units[i], lengths[i], a, 0);
         return {at.force, at.force_by_activation};
     };
-    const Distribution found = distribute(instant, pull, {});
+    const Distribution found = distribute(demand, pull, {});
     expect_solved(found);
     double moment = 0;
     for (std::size_t i = 0; i < 2; ++i) {
-        const double arm = instant.arms(0, static_cast<int>(i));
+        const double arm = demand.arms(0, static_cast<int>(i));
         moment += arm * pull(i, found.activations[i]).force;
         EXPECT_NEAR(found.prices[0] * arm * pull(i, found.activations[i]).slope,
                     2 * found.activations[i], 1e-7);

@@ -8,10 +8,10 @@
 
 namespace myotet::activation {
 
-/// What is known of a skeleton's muscles at one time. At each coordinate muscles and
+/// What is asked of muscles at one time, and what they can. At each coordinate muscles and
 /// reserves must make the torque:
 ///     sum_i arms(c, i) (passive_i + gains_i a_i) + reserve_c = torques_c.
-struct Instant {
+struct Demand {
     std::vector<double> torques;  ///< a coordinate, N mm; N where it is a length
     Eigen::MatrixXd arms;         ///< (coordinate, muscle): moment arms -dL/dq, mm
     std::vector<double> gains;    ///< a muscle: pull at full activation, N

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Activation/Instant.h"
+#include "Activation/Demand.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace myotet::activation {
 
-void Instant::validate() const {
+void Demand::validate() const {
     const auto finite = [](double x) { return std::isfinite(x); };
     const auto pull = [](double x) { return x >= 0 && std::isfinite(x); };
     const std::size_t m = coordinates(), n = muscles();
