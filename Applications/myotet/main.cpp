@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
         "Lengths are millimetres. Exit codes: 0 done, 2 usage, 3 bad input, 4 a mesh\n"
         "breaks a promise, 5 not converged, 6 out of a resource, 130 interrupted.");
     try {
+        add_activate(program, code);
         add_contract(program, code);
         add_convert(program, code);
         add_inspect(program, code);

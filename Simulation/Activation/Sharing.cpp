@@ -11,6 +11,8 @@ namespace {
 using muscle::RigidPull;
 using skeleton::Model;
 
+// Of muscles whose cross-section is not told: its size moves no share.
+constexpr double kSpecificTension = 0.3;  // MPa
 // An arm below this moves nothing: what rounding leaves of mm.
 constexpr double kNoArm = 1e-9;
 
@@ -39,6 +41,9 @@ DistributionOptions completed(const Model& model, const MuscleMotion& motion,
             notes.push_back("no muscle moves " + model.coordinates[c].name +
                             ": its torque is left to what holds it");
     }
+    if (made.criterion == Criterion::stress && made.areas.empty())
+        for (const auto& m : model.muscles)
+            made.areas.push_back(m.max_isometric_force / kSpecificTension);
     if (made.muscle_names.empty())
         for (const auto& m : model.muscles) made.muscle_names.push_back(m.name);
     if (made.coordinate_names.empty())
@@ -133,6 +138,8 @@ Sharing share(const Model& model, const MuscleMotion& motion, const SharingOptio
     for (const SkeletonUnit& unit : units)
         if (!unit.note.empty()) sharing.notes.push_back(unit.note);
     const DistributionOptions distribution = completed(model, motion, options, sharing.notes);
+    for (const double strength : distribution.reserves)
+        sharing.held.push_back(std::isinf(strength));
     sharing.demands = demands_of(model, units, motion, options);
     const bool elastic = std::ranges::any_of(
         units, [&](const SkeletonUnit& unit) { return is_elastic(unit, options.tendons); });

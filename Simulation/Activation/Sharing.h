@@ -39,6 +39,7 @@ struct SharingOptions {
 struct Sharing {
     std::vector<Distribution> at;    ///< [time]
     std::vector<Demand> demands;     ///< [time] what was asked, tendons being rigid
+    std::vector<bool> held;          ///< a coordinate: left to what holds it
     std::vector<std::string> notes;  ///< a sentence each
     /// The worst of all times; converged only when all are.
     Status status = Status::not_converged;
