@@ -143,6 +143,16 @@ double strength_in(const std::string& word, const std::string& text) {
     return *strength;
 }
 
+std::size_t coordinate_of(const Model& model, const std::string& name, const std::string& option) {
+    std::vector<std::string> known;
+    for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+        known.push_back(model.coordinates[c].name);
+        if (known.back() == name) return c;
+    }
+    throw UsageError(option + ": the model has no coordinate '" + name + "'; it has " +
+                     list_of(known));
+}
+
 std::vector<double> read_reserves(const std::vector<std::string>& words, const Model& model) {
     std::vector<double> strength(model.coordinates.size(), 0);
     for (const std::string& word : words) {
@@ -151,18 +161,8 @@ std::vector<double> read_reserves(const std::vector<std::string>& words, const M
             strength.assign(strength.size(), strength_in(word, word));
             continue;
         }
-        const std::string name = word.substr(0, equals);
-        std::vector<std::string> known;
-        bool found = false;
-        for (std::size_t c = 0; c < strength.size(); ++c) {
-            known.push_back(model.coordinates[c].name);
-            if (known.back() != name) continue;
-            strength[c] = strength_in(word, word.substr(equals + 1));
-            found = true;
-        }
-        if (!found)
-            throw UsageError("--reserves: the model has no coordinate '" + name + "'; it has " +
-                             list_of(known));
+        const std::size_t c = coordinate_of(model, word.substr(0, equals), "--reserves");
+        strength[c] = strength_in(word, word.substr(equals + 1));
     }
     return strength;
 }
@@ -195,6 +195,9 @@ ActivateInput read_activate_input(const ActivateJobOptions& options) {
     sharing.distribution.criterion = options.criterion;
     sharing.distribution.exponent = options.exponent;
     sharing.distribution.reserves = read_reserves(options.reserves, input.model);
+    sharing.held.assign(input.model.coordinates.size(), false);
+    for (const std::string& name : options.held)
+        sharing.held[coordinate_of(input.model, name, "--hold")] = true;
     sharing.tendons = options.tendons;
     sharing.passive = options.passive;
     sharing.force_velocity = !options.still;

@@ -24,6 +24,9 @@ using activation::Status;
 using skeleton::Model;
 using skeleton::Table;
 
+// N mm or N: what rounding leaves of a reserve.
+constexpr double kNoReserve = 1e-6;
+
 Table muscles_table(const std::string& title, const Model& model, const MuscleMotion& motion) {
     Table table{.title = title, .times = motion.times};
     for (const skeleton::Muscle& muscle : model.muscles) table.columns.push_back(muscle.name);
@@ -99,7 +102,8 @@ void write_sharing(const Model& model, const MuscleMotion& motion, const Sharing
         activations.rows.push_back(one.activations);
         forces.rows.push_back(one.forces);
         reserves.rows.push_back(one.reserves);
-        any = any || std::ranges::any_of(one.reserves, [](double r) { return r != 0; });
+        for (std::size_t c = 0; c < one.reserves.size(); ++c)
+            any = any || (!sharing.held[c] && std::abs(one.reserves[c]) > kNoReserve);
     }
     results.write(activations, "from 0 to 1", "activation.sto");
     results.write(forces, "N", "force.sto");
@@ -168,6 +172,7 @@ ActivateReport begin_report(const ActivateJobOptions& options, const ActivateInp
                       {"static", options.still ? "yes" : "no"},
                       {"cutoff_Hz", rounded(options.cutoff_hz)},
                       {"reserves", options.reserves.empty() ? "none" : list_of(options.reserves)},
+                      {"hold", options.held.empty() ? "none" : list_of(options.held)},
                       {"bounds", options.bounds.string()},
                       {"emg", options.emg.string()}};
     report.warnings = input.warnings;

@@ -21,6 +21,7 @@ struct ActivateJobOptions {
     std::filesystem::path bounds, emg;  ///< tables; empty: none
     double tracking = 1;                ///< of what `emg` says
     std::vector<std::string> reserves;  ///< "NAME=STRENGTH", or "STRENGTH" for all, N mm or N
+    std::vector<std::string> held;      ///< coordinates whose torque is left to what holds them
     double cutoff_hz = 0;               ///< of the motion; 0: as it is
     double from = 0, to = 0;            ///< s; to <= from: the whole motion
     double step = 0;                    ///< s; 0: the motion's own times, of key frames 10 ms

@@ -79,6 +79,12 @@ void add_options(CLI::App& command, Arguments& a) {
         ->delimiter(',')
         ->type_name("LIST");
     command
+        .add_option("--hold", a.job.held,
+                    "coordinates that something else holds, such as muscles that the model does "
+                    "not have: NAME,... (default: locked ones and those that no muscle moves)")
+        ->delimiter(',')
+        ->type_name("LIST");
+    command
         .add_option("--cutoff", a.job.cutoff_hz,
                     "low-pass of measured motion, Hz; 6 is usual (default: none)")
         ->check(kPositive)

@@ -147,7 +147,7 @@ Sharing share(const Model& model, const MuscleMotion& motion, const SharingOptio
         sharing.at = distribute(sharing.demands, distribution, progress);
     } else {
         for (std::size_t t = 0; t < sharing.demands.size(); ++t) {
-            progress.report("sharing",
+            progress.report("muscle forces",
                             static_cast<double>(t) / static_cast<double>(sharing.demands.size()));
             progress.check();
             sharing.at.push_back(distribute(sharing.demands[t],
