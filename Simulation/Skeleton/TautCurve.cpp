@@ -15,7 +15,7 @@ using Mat4 = Eigen::Matrix4d;
 
 constexpr int kSteps = 25, kHalvings = 5;
 // A step of Newton's method below this, of the surface's size, leaves an error of its square.
-constexpr double kLastStep = 3e-7;
+constexpr double kLastStep = 1e-8;
 // Residuals below this, of the surface's size, are rounding.
 constexpr double kRounding = 1e-14;
 // Longest step: of the surface's size, and rad.

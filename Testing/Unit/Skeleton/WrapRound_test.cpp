@@ -133,7 +133,9 @@ TEST(WrapCylinder, StaysOnItsSideBeyondHalfATurn) {
         const Vec3 q{-40 * std::cos(angle), 40 * std::sin(angle), 10};
         const Wrap wrap = find_wrap(object, surface, p, q, memory);
         const double length = length_of(wrap, p, q);
-        if (n > 0) EXPECT_LT(std::abs(length - before), 40 * kPi / 180 + kClosedForm) << n;
+        if (n > 0) {
+            EXPECT_LT(std::abs(length - before), 40 * kPi / 180 + kClosedForm) << n;
+        }
         before = length;
         if (wrap.touch != WrapTouch::touching) continue;
         memory = remembered(wrap, p, q);
