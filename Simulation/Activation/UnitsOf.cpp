@@ -82,7 +82,7 @@ muscle::MillardShape millard_shape(const skeleton::Muscle& muscle) {
 
 }  // namespace
 
-SkeletonUnit unit_of(const skeleton::Muscle& muscle) {
+SkeletonUnit unit_of(const skeleton::Muscle& muscle, muscle::ThelenPassive form) {
     try {
         SkeletonUnit out;
         out.rigid_tendon = muscle.rigid_tendon;
@@ -93,7 +93,9 @@ SkeletonUnit unit_of(const skeleton::Muscle& muscle) {
                     .pennation = muscle.pennation,
                     .max_speed = muscle.max_speed};
         if (muscle.type == "Thelen2003Muscle") {
-            out.unit.curves = muscle::thelen2003_curves(thelen_shape(muscle));
+            muscle::ThelenShape shape = thelen_shape(muscle);
+            shape.passive_form = form;
+            out.unit.curves = muscle::thelen2003_curves(shape);
         } else if (muscle.type.starts_with("Millard2012")) {
             out.unit.curves = muscle::millard2012_curves(millard_shape(muscle));
         } else {
@@ -108,9 +110,9 @@ SkeletonUnit unit_of(const skeleton::Muscle& muscle) {
     }
 }
 
-std::vector<SkeletonUnit> units_of(const skeleton::Model& model) {
+std::vector<SkeletonUnit> units_of(const skeleton::Model& model, muscle::ThelenPassive form) {
     std::vector<SkeletonUnit> units;
-    for (const skeleton::Muscle& muscle : model.muscles) units.push_back(unit_of(muscle));
+    for (const skeleton::Muscle& muscle : model.muscles) units.push_back(unit_of(muscle, form));
     return units;
 }
 

@@ -22,7 +22,11 @@ struct SkeletonUnit {
 /// with the numbers of the file where it has them; any other type has generic curves, and a
 /// note. A rigid tendon or damping lets the least of Millard's active curve be nothing, as in
 /// OpenSim. Throws InputError "muscle NAME: ..." when a number breaks its rule.
-[[nodiscard]] SkeletonUnit unit_of(const skeleton::Muscle& muscle);
-[[nodiscard]] std::vector<SkeletonUnit> units_of(const skeleton::Model& model);
+/// `form` is that of Thelen's passive curve.
+[[nodiscard]] SkeletonUnit unit_of(
+    const skeleton::Muscle& muscle,
+    muscle::ThelenPassive form = muscle::ThelenPassive::from_optimum);
+[[nodiscard]] std::vector<SkeletonUnit> units_of(
+    const skeleton::Model& model, muscle::ThelenPassive form = muscle::ThelenPassive::from_optimum);
 
 }  // namespace myotet::activation

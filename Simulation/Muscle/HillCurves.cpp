@@ -20,6 +20,12 @@ CurvePoint thelen_active(const ThelenShape& shape, double length) {
 }
 
 CurvePoint thelen_passive(const ThelenShape& shape, double length) {
+    if (shape.passive_form == ThelenPassive::everywhere) {
+        const double k = shape.KshapePassive, e = (length - 1) / shape.FmaxMuscleStrain;
+        const double slope = k / shape.FmaxMuscleStrain;
+        if (e > 1) return {1 + k * (e - 1), slope};
+        return {std::exp(k * (e - 1)), slope * std::exp(k * (e - 1))};
+    }
     if (!(length > 1)) return {};
     const double rate = shape.KshapePassive / shape.FmaxMuscleStrain;
     const double whole = std::expm1(shape.KshapePassive), e = length - 1;

@@ -19,6 +19,12 @@ struct HillCurves {
     double damping = 0;
 };
 
+/// How passive fibres resist, e being (l - 1) / FmaxMuscleStrain and k KshapePassive.
+enum class ThelenPassive {
+    from_optimum,  ///< (exp(k e) - 1) / (exp(k) - 1) beyond the optimum [Thelen 2003]
+    everywhere,    ///< exp(k e) / exp(k), straight beyond e = 1, as in OpenSim 2
+};
+
 /// Numbers of Thelen's curves, named as OpenSim's files name them.
 struct ThelenShape {
     double KshapeActive = 0.45;      ///< the wider the larger
@@ -29,13 +35,14 @@ struct ThelenShape {
     double Flen = 1.4;               ///< of lengthening at great speed
     /// Part of Flen beyond which the force-velocity curve goes straight on.
     double fv_linear_extrap_threshold = 0.95;
+    ThelenPassive passive_form = ThelenPassive::from_optimum;
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
 
 /// [Thelen 2003, eq. 3-8], at full activation. With e the strain beyond rest:
 ///     active    exp(-(l - 1)^2 / KshapeActive)
-///     passive   (exp(KshapePassive e / FmaxMuscleStrain) - 1) / (exp(KshapePassive) - 1)
+///     passive   as ThelenPassive says
 ///     velocity  (1 + v) / (1 - v / Af)                          v <= 0; 0 below -1
 ///               (m - 1 + k m v) / (m - 1 + k v)                 m = Flen, k = 2 + 2 / Af
 ///     tendon    0.33 (exp(3 e / toe) - 1) / (exp(3) - 1)        e <= toe, straight beyond

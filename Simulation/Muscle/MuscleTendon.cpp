@@ -141,6 +141,12 @@ ElasticPull elastic_pull(const MuscleTendon& unit, double length, double activat
     return pull;
 }
 
+double isokinetic_gain(const MuscleTendon& unit, double length, double speed) {
+    const double v = speed * std::cos(unit.pennation) / (unit.max_speed * unit.fibre_length);
+    const double fast = 1.8 - 1.8 / (1 + std::exp((0.04 + v) / 0.18));
+    return elastic_pull(unit, length, 1, 0).force * fast;
+}
+
 ElasticPull elastic_pull(const MuscleTendon& unit, const UnitMotion& motion) {
     const ElasticPull still = elastic_pull(unit, motion.length, motion.activation, 0);
     if (still.slack) return still;

@@ -38,6 +38,14 @@ struct RigidPull {
 /// static optimisation calls the force of a fibre behind an inextensible tendon.
 [[nodiscard]] RigidPull rigid_pull(const MuscleTendon& unit, double length, double speed);
 
+/// Pull at full activation as OpenSim 2 took it for static optimisation, of which reference
+/// results remain: in static equilibrium with the stretched tendon, passive pull included,
+/// times a generic force-velocity curve,
+///     1.8 - 1.8 / (1 + exp((0.04 + v) / 0.18)),  v = speed cos(pennation) / (max_speed
+///     fibre_length),
+/// N, of a length, mm, and a speed, mm/s, of the unit.
+[[nodiscard]] double isokinetic_gain(const MuscleTendon& unit, double length, double speed);
+
 /// A unit whose tendon stretches: fibres and tendon pull alike,
 ///     tendon(l_t) = cos(alpha) (a active(l) velocity(v) + passive(l) + damping v).
 struct ElasticPull {

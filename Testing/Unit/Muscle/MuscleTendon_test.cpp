@@ -167,6 +167,17 @@ TEST(MuscleTendon, ShorterThanItsTendonIsSlack) {
         }
 }
 
+TEST(MuscleTendon, IsokineticGainIsThePullAtRestAndChangesWithSpeed) {
+    for (const MuscleTendon& unit : units()) {
+        // The generic curve misses 1 at rest by 4e-4.
+        const double still = elastic_pull(unit, 280, 1, 0).force;
+        EXPECT_NEAR(isokinetic_gain(unit, 280, 0), still, 5e-4 * still);
+        EXPECT_LT(isokinetic_gain(unit, 280, -100), still);
+        EXPECT_GT(isokinetic_gain(unit, 280, 100), still);
+        EXPECT_NEAR(isokinetic_gain(unit, 280, 1e6), 1.8 * still, 1e-6 * still);
+    }
+}
+
 TEST(MuscleTendon, RefusesWhatHasNoMeaning) {
     MuscleTendon unit = units()[0];
     EXPECT_NO_THROW(unit.validate());
