@@ -14,6 +14,7 @@ namespace myotet::app {
 void add_activate(CLI::App& program, ExitCode& code);
 void add_contract(CLI::App& program, ExitCode& code);
 void add_convert(CLI::App& program, ExitCode& code);
+void add_fit(CLI::App& program, ExitCode& code);
 void add_inspect(CLI::App& program, ExitCode& code);
 void add_levelset(CLI::App& program, ExitCode& code);
 void add_mesh(CLI::App& program, ExitCode& code);

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
         add_activate(program, code);
         add_contract(program, code);
         add_convert(program, code);
+        add_fit(program, code);
         add_inspect(program, code);
         add_levelset(program, code);
         add_mesh(program, code);

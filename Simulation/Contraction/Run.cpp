@@ -2,7 +2,6 @@
 #include "Contraction/Run.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "Contraction/Words.h"
 #include "Core/Errors.h"
@@ -154,7 +153,7 @@ public:
           recorder_(scene, model, bones, options, summary_),
           with_bones_(!bones.empty()),
           fingerprint_(model.fingerprint),
-          steps_(static_cast<int>(std::ceil(scene.time.end / scene.time.step - kSameTime))) {
+          steps_(scene_steps(scene.time)) {
         summary_.architecture = architecture(scene, model);
     }
 
@@ -165,8 +164,7 @@ public:
         const int first = options_.resume ? resumed : start();
         for (int i = first; first > 0 && i <= steps_; ++i) {
             tell(i - 1);
-            const double to = i == steps_ ? scene_.time.end : i * scene_.time.step;
-            const StepSummary step = simulation_.advance(to);
+            const StepSummary step = simulation_.advance(scene_time(scene_.time, i));
             if (step.stopped) {
                 summary_.message = "stopped at " + rounded(simulation_.time()) + " s";
                 summary_.interrupted = true;

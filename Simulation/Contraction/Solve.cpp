@@ -18,6 +18,8 @@ constexpr int kHard = 25;
 constexpr double kFirstPart = 1.0 / 16;
 // Times nearer than this part of a step are the same.
 constexpr double kSameTime = 1e-9;
+// A last step shorter than this part of one is none.
+constexpr double kSameEnd = 1e-6;
 // Tetrahedra that a failed step names.
 constexpr std::size_t kNamed = 3;
 
@@ -36,6 +38,14 @@ std::vector<Vec3> vectors_of(const std::vector<double>& numbers) {
 }
 
 }  // namespace
+
+int scene_steps(const Time& time) {
+    return static_cast<int>(std::ceil(time.end / time.step - kSameEnd));
+}
+
+double scene_time(const Time& time, int step) {
+    return step == scene_steps(time) ? time.end : step * time.step;
+}
 
 Simulation::Simulation(const Scene& scene, Model& model, const SolveOptions& options)
     : scene_(scene), model_(model), options_(options), activation_(model.bodies.size(), 0.0) {
@@ -123,6 +133,14 @@ void Simulation::accept_rates() {
     }
 }
 
+// The bodies have long been where they are.
+void Simulation::settle_rates() {
+    for (BodyModel& body : model_.bodies) {
+        body.law->accept(body.elastic->gradients());
+        if (body.viscous) body.viscous->stop(body.elastic->gradients());
+    }
+}
+
 dynamics::EquilibriumSummary Simulation::step_to(double time) {
     // A matrix has room for the nodes that are near one another now.
     if (contacts_->update_pairs(motion_.x)) drop_solver();
@@ -152,6 +170,7 @@ StepSummary Simulation::begin() {
         apply(0, motion_.x);
         make_solver();
         motion_ = implicit_->start(motion_.x, motion_.v);
+        settle_rates();
         summary.converged = true;
         return summary;
     }
@@ -273,10 +292,7 @@ void Simulation::load(const Checkpoint& checkpoint) {
     apply(motion_.time, x);
     for (dynamics::Potential* potential : potentials_) (void)potential->move_to(motion_.x);
     if (scene_.time.scheme == Scheme::quasi_static) return;
-    for (BodyModel& body : model_.bodies) {
-        body.law->accept(body.elastic->gradients());
-        if (body.viscous) body.viscous->stop(body.elastic->gradients());
-    }
+    settle_rates();
 }
 
 }  // namespace myotet::contraction

@@ -18,6 +18,10 @@ struct SolveOptions {
     double least_part = 1.0 / 256;
 };
 
+/// Steps from 0 to the scene's end, and when step i ends, s; the last one may be shorter.
+[[nodiscard]] int scene_steps(const Time& time);
+[[nodiscard]] double scene_time(const Time& time, int step);
+
 /// What a step of the scene took.
 struct StepSummary {
     bool converged = false;
@@ -64,6 +68,7 @@ private:
     [[nodiscard]] dynamics::EquilibriumSummary step_to(double time);
     void begin_rates(double seconds);
     void accept_rates();
+    void settle_rates();
     [[nodiscard]] std::string trouble() const;
 
     const Scene& scene_;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "FitJob.h"
+
+namespace myotet::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+std::string to_json(const FitReport& report) {
+    const activation::ExpensiveFit& fit = report.fit;
+    Json json = {{"scene", report.scene},
+                 {"scene_sha256", report.fingerprint},
+                 {"target", report.target},
+                 {"output", report.output},
+                 {"version", MYOTET_VERSION},
+                 {"body", report.body},
+                 {"status", activation::to_string(fit.status)},
+                 {"message", fit.message},
+                 {"evaluations", fit.evaluations},
+                 {"failed_evaluations", fit.failures},
+                 {"begin_s", report.begin},
+                 {"end_s", report.end}};
+    json["quantities"] = Json::array();
+    for (std::size_t q = 0; q < report.quantities.size(); ++q)
+        json["quantities"].push_back({{"name", report.quantities[q]},
+                                      {"most", report.most[q]},
+                                      {"misfit_rms", report.misfit[q]}});
+    json["spline"] = {{"begin_s", report.basis.begin},
+                      {"end_s", report.basis.end},
+                      {"intervals", report.basis.intervals},
+                      {"coefficients", fit.coefficients}};
+    json["misfit_after_each_evaluation"] = Json::array();
+    for (const double rms : fit.history)
+        json["misfit_after_each_evaluation"].push_back(rms == rms ? Json(rms) : Json(nullptr));
+    json["seconds"] = report.seconds;
+    json["processor_seconds"] = report.processor_seconds;
+    json["peak_memory_bytes"] = report.peak_memory;
+    json["warnings"] = report.warnings;
+    json["files"] = report.files;
+    return json.dump(2) + "\n";
+}
+
+std::string to_table(const FitReport& report) {
+    char line[256];
+    std::string text = "activation of " + report.body + "\n";
+    text += "  quantity                              most     misfit (rms)\n";
+    for (std::size_t q = 0; q < report.quantities.size(); ++q) {
+        std::snprintf(line, sizeof line, "  %-32s %9.4g %11.4g (%.2g %%)\n",
+                      report.quantities[q].c_str(), report.most[q], report.misfit[q],
+                      100 * report.misfit[q] / report.most[q]);
+        text += line;
+    }
+    std::snprintf(line, sizeof line, "  %d evaluations, %d of them failed\n",
+                  report.fit.evaluations, report.fit.failures);
+    return text + line;
+}
+
+}  // namespace myotet::app

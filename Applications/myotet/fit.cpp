@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "CommandLine.h"
+#include "Commands.h"
+#include "Console.h"
+#include "FitJob.h"
+
+namespace myotet::app {
+namespace {
+
+struct Arguments {
+    FitJobOptions job;
+    bool json = false, quiet = false, verbose = false;
+};
+
+void add_options(CLI::App& command, Arguments& a) {
+    command.add_option("SCENE", a.job.scene, "what is contracted, and how (.yaml)")
+        ->required()
+        ->type_name("SCENE.yaml");
+    command
+        .add_option("--target", a.job.target,
+                    "quantities of history.csv over time that the scene shall come to, such as "
+                    "time,biceps_at_forearm_force (.csv, .sto)")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("-o,--output", a.job.output, "folder for the results")
+        ->required()
+        ->type_name("FOLDER");
+    command
+        .add_option("--body", a.job.body,
+                    "muscle whose activation is sought (default: the only one)")
+        ->type_name("NAME");
+    command
+        .add_option("--intervals", a.job.intervals,
+                    "pieces of the activation's cubic spline (default: one each 0.2 s, at most 5)")
+        ->check(CLI::Range(1, 200))
+        ->type_name("N");
+    command
+        .add_option("--evaluations", a.job.evaluations,
+                    "times that the scene is run, at most (default: 40)")
+        ->check(CLI::Range(1, 100000))
+        ->type_name("N");
+    command
+        .add_option("--goal", a.job.goal,
+                    "good enough: misfit (rms) as a part of the target's most (default: 0.01)")
+        ->check(kPositive)
+        ->type_name("PART");
+    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+    command.add_flag("--json", a.json, "print report.json instead of the table");
+    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
+    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+}
+
+ExitCode run(const Arguments& a) {
+    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
+                                : a.verbose ? Verbosity::verbose
+                                            : Verbosity::normal;
+    set_up_log(verbosity);
+    FitReport report;
+    {
+        ConsoleProgress progress(verbosity);
+        report = run_fit_job(a.job, progress);
+    }
+    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    if (report.fit.status == activation::Status::converged) {
+        for (std::size_t q = 0; q < report.misfit.size(); ++q)
+            if (report.misfit[q] > a.job.goal * report.most[q]) {
+                log_info("this is the best that a spline of " +
+                         std::to_string(report.basis.intervals) +
+                         " intervals can do; more --intervals may come nearer");
+                break;
+            }
+        log_info("results are in " + report.output);
+        return ExitCode::done;
+    }
+    log_error(report.fit.message);
+    log_info("the best that was found is in " + report.output);
+    return ExitCode::not_converged;
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program, ExitCode& code) {
+    CLI::App* command = program.add_subcommand(
+        "fit", "the activation with which a contraction comes to measured forces or lengths");
+    const auto arguments = std::make_shared<Arguments>();
+    add_options(*command, *arguments);
+    command->callback([arguments, &code] { code = run(*arguments); });
+}
+
+}  // namespace myotet::app
