@@ -177,15 +177,11 @@ ActivateInput read_activate_input(const ActivateJobOptions& options) {
     if (input.model.muscles.empty())
         throw InputError(options.model.string() + ": has no muscle that could be activated");
 
-    const bool keys = contraction::is_key_frames(options.motion);
-    const Table table =
-        keys ? contraction::read_key_frames(options.motion) : skeleton::read_table(options.motion);
-    skeleton::TrajectoryOptions smooth =
-        keys ? skeleton::key_framed() : skeleton::TrajectoryOptions{};
-    if (keys && options.cutoff_hz > 0)
+    contraction::MotionRows rows = contraction::read_motion_rows(options.motion);
+    if (options.cutoff_hz > 0 && contraction::is_key_frames(options.motion))
         throw UsageError("--cutoff filters measured motion; key frames are smooth by themselves");
-    smooth.cutoff_hz = options.cutoff_hz;
-    input.trajectory = skeleton::make_trajectory(table, input.model, smooth);
+    rows.smooth.cutoff_hz = options.cutoff_hz;
+    input.trajectory = contraction::trajectory_of(rows, input.model, options.motion);
     input.notes.insert(input.notes.end(), input.trajectory.notes.begin(),
                        input.trajectory.notes.end());
     tell_excursions(input.model, input.trajectory, input.warnings);

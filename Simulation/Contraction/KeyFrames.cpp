@@ -5,6 +5,7 @@
 
 #include "Contraction/Keys.h"
 #include "Contraction/Words.h"
+#include "Core/Errors.h"
 
 namespace myotet::contraction {
 namespace fs = std::filesystem;
@@ -104,6 +105,22 @@ skeleton::Table read_key_frames(const YamlTree& keys, const fs::path& file) {
                "the first key names no coordinate; write '{time: 0, NAME: DEGREES}'");
     check_gaps(keys.items, file, table.columns);
     return table;
+}
+
+MotionRows read_motion_rows(const fs::path& file) {
+    if (is_key_frames(file)) return {read_key_frames(file), skeleton::key_framed()};
+    MotionRows rows{skeleton::read_table(file), {}};
+    if (rows.table.times.size() < 3) rows.smooth.degree = 3;
+    return rows;
+}
+
+skeleton::Trajectory trajectory_of(const MotionRows& rows, const skeleton::Model& model,
+                                   const fs::path& file) {
+    try {
+        return skeleton::make_trajectory(rows.table, model, rows.smooth);
+    } catch (const InputError& error) {
+        throw InputError(file.string() + ": " + error.what());
+    }
 }
 
 skeleton::Table read_key_frames(const fs::path& file) {

@@ -5,6 +5,7 @@
 
 #include "Repair/YamlTree.h"
 #include "Skeleton/Table.h"
+#include "Skeleton/Trajectory.h"
 
 namespace myotet::contraction {
 
@@ -25,5 +26,18 @@ namespace myotet::contraction {
 /// The same from the list of keys in another file.
 [[nodiscard]] skeleton::Table read_key_frames(const repair::YamlTree& keys,
                                               const std::filesystem::path& file);
+
+/// The rows of a motion of any kind, and how they become one: key frames begin and end at
+/// rest, others go on by splines of degree 5, or 3 where there are two rows.
+struct MotionRows {
+    skeleton::Table table;
+    skeleton::TrajectoryOptions smooth;
+};
+[[nodiscard]] MotionRows read_motion_rows(const std::filesystem::path& file);
+
+/// skeleton::make_trajectory, its refusals with the file in front.
+[[nodiscard]] skeleton::Trajectory trajectory_of(const MotionRows& rows,
+                                                 const skeleton::Model& model,
+                                                 const std::filesystem::path& file);
 
 }  // namespace myotet::contraction

@@ -59,18 +59,15 @@ Mover read_mover(const Keys& keys, const fs::path& file, Scene& scene) {
     Mover mover;
     scene.skeleton.model = keys.existing_file("model");
     mover.model = skeleton::read_osim(scene.skeleton.model);
-    skeleton::Table table;
-    bool framed = true;
+    MotionRows rows;
     if (keys.one_of({"motion", "keys"}) == "keys") {
-        table = read_key_frames(*keys.find("keys"), file);
+        rows = {read_key_frames(*keys.find("keys"), file), skeleton::key_framed()};
     } else {
         scene.skeleton.motion = keys.existing_file("motion");
-        framed = is_key_frames(scene.skeleton.motion);
-        table = framed ? read_key_frames(scene.skeleton.motion)
-                       : skeleton::read_table(scene.skeleton.motion);
+        rows = read_motion_rows(scene.skeleton.motion);
     }
-    mover.trajectory = skeleton::make_trajectory(
-        table, mover.model, framed ? skeleton::key_framed() : skeleton::TrajectoryOptions{});
+    mover.trajectory = trajectory_of(rows, mover.model,
+                                     scene.skeleton.motion.empty() ? file : scene.skeleton.motion);
     if (!(mover.trajectory.times.front() <= 0 && mover.trajectory.times.back() >= scene.time.end) &&
         !mover.trajectory.at_rest)
         keys.refuse(*keys.find("motion"),
