@@ -28,7 +28,7 @@ struct Function {
 /// Without bend at its ends. x ascending, at least two. Throws InputError.
 [[nodiscard]] Function natural_spline(std::vector<double> x, std::vector<double> y);
 /// As SIMM and OpenSim fit it: the third derivatives at its ends are those of the cubics
-/// through the first and the last four points [Forsythe77, sec. 4.4]; a parabola through
+/// through the first and the last four points [Forsythe 1977, sec. 4.4]; a parabola through
 /// three points. Throws InputError.
 [[nodiscard]] Function simm_spline(std::vector<double> x, std::vector<double> y);
 /// Straight between points and beyond them. Throws InputError.

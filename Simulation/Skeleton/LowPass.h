@@ -9,7 +9,7 @@ namespace myotet::skeleton {
 /// A signal without what is faster than a frequency: Butterworth's filter of third order
 ///     H(s) = 1 / ((s + 1) (s^2 + s + 1)),  s = (1 - 1/z) / (w (1 + 1/z)),  w = tan(pi f dt),
 /// run forwards, then backwards, so that nothing is delayed and the cutoff frequency is
-/// halved in amplitude [Oppenheim99, sec. 7.1; Winter09, sec. 3.4]. The signal is continued
+/// halved in amplitude [Oppenheim 1999, sec. 7.1; Winter 2009, sec. 3.4]. The signal is continued
 /// at both ends by `padding` samples turned about its end point. Samples `dt` s apart.
 struct LowPass {
     double cutoff_hz = 6;

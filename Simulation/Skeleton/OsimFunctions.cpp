@@ -46,7 +46,7 @@ Function multiplied(const OsimFile& file, const XmlElement& element) {
 }
 
 /// A spline that smooths and one of another order than cubic is no function of ours; an exact
-/// cubic one is natural [Woltring86].
+/// cubic one is natural [Woltring 1986].
 Function gcv_spline(const OsimFile& file, const XmlElement& element) {
     if (file.number(element, "half_order", 3) != 2 ||
         file.number(element, "error_variance", 0) != 0)

@@ -7,9 +7,9 @@
 
 namespace myotet::skeleton {
 
-/// Reads an OpenSim model, file versions 4 and 3 (and 2 where 3 means the same), whose
-/// metres and kilograms become millimetres and tonnes. What of it moves or pulls and is
-/// not taken into account gets a sentence in Model::notes; pictures and markers do not.
+/// Reads an OpenSim model, file versions 1.9 to 4, whose metres and kilograms become
+/// millimetres and tonnes; the README says what of it. What moves or pulls and is not taken
+/// into account gets a sentence in Model::notes; pictures and markers do not.
 /// Throws IoError when the file cannot be read, InputError "file:12: ..." for XML that is
 /// none, a body, coordinate or wrap object that is named and not there, a joint, function
 /// or wrap object of a kind that is not known, bodies that hang on each other in a circle.

@@ -104,6 +104,28 @@ std::vector<int> coordinates_of(const Joint& joint) {
     return found;
 }
 
+/// What Simbody would stop the program for.
+void check(const Model& model, const Joint& joint) {
+    const auto wrong = [&](const std::string& why) {
+        throw InputError("the joint '" + joint.name + "' " + why);
+    };
+    const auto is_body = [&](int b) { return b >= 0 && std::size_t(b) < model.bodies.size(); };
+    if (!is_body(joint.parent) || !is_body(joint.child)) wrong("joins bodies that are not there");
+    for (const Pose& pose : {joint.in_parent, joint.in_child})
+        if (!pose.rotation.allFinite() || !pose.translation.allFinite())
+            wrong("has a frame that is not finite");
+    for (std::size_t i = 0; i < 6; ++i) {
+        const Vec3& axis = freedom_of(joint, i).axis;
+        const Vec3& next = freedom_of(joint, i < 3 ? (i + 1) % 3 : 3 + (i + 1) % 3).axis;
+        constexpr double kUnit = 1e-6, kParallel = 1e-5;  // sine of the angle
+        if (!(std::abs(axis.norm() - 1) < kUnit)) wrong("has an axis that is no unit vector");
+        if (!(axis.cross(next).norm() > kParallel))
+            wrong("has parallel axes; let its turns and its shifts span three directions each");
+        if (freedom_of(joint, i).coordinate >= static_cast<int>(model.coordinates.size()))
+            wrong("follows a coordinate that is not there");
+    }
+}
+
 /// Where a joint without coordinates holds its child's frame in the parent's.
 Pose held(const Joint& joint) {
     Pose pose;
@@ -155,6 +177,7 @@ Skeleton::Impl::Impl(const Model& model)
 }
 
 void Skeleton::Impl::add_joint(const Model& model, const Joint& joint) {
+    check(model, joint);
     const auto parent_index = static_cast<std::size_t>(joint.parent);
     const auto child_index = static_cast<std::size_t>(joint.child);
     if (!bodies[parent_index].isValid() || bodies[child_index].isValid())
@@ -164,6 +187,11 @@ void Skeleton::Impl::add_joint(const Model& model, const Joint& joint) {
     SimTK::MobilizedBody& parent = matter.updMobilizedBody(bodies[parent_index]);
     const SimTK::Body::Rigid body(mass_of(model.bodies[child_index]));
     const auto own = coordinates_of(joint);
+    for (const int c : own)
+        if (coordinates[static_cast<std::size_t>(c)].first.isValid())
+            throw InputError("the coordinate '" +
+                             model.coordinates[static_cast<std::size_t>(c)].name +
+                             "' moves two joints; give each joint its own");
     if (own.empty()) {
         bodies[child_index] = SimTK::MobilizedBody::Weld(
             parent, to_simbody(joint.in_parent * held(joint)), body, to_simbody(joint.in_child));
@@ -190,8 +218,12 @@ void Skeleton::Impl::add_joint(const Model& model, const Joint& joint) {
 SimTK::Vector Skeleton::Impl::to_speeds(std::span<const double> numbers) const {
     MYOTET_CHECK(numbers.size() == slots.size(), "a number a coordinate");
     SimTK::Vector u(matter.getNumMobilities(), 0.0);
-    for (std::size_t c = 0; c < slots.size(); ++c)
+    for (std::size_t c = 0; c < slots.size(); ++c) {
+        if (!std::isfinite(numbers[c]))
+            throw InputError("coordinate " + std::to_string(c + 1) + " is to have " +
+                             shown(numbers[c]) + "; give finite values, speeds and accelerations");
         if (slots[c] >= 0) u[slots[c]] = numbers[c];
+    }
     return u;
 }
 

@@ -21,7 +21,7 @@ struct Spline {
 };
 
 /// The spline of degree 3 or 5 through points: of all functions through them the one with
-/// the least integral of the square of its second (third) derivative [deBoor78, ch. V].
+/// the least integral of the square of its second (third) derivative [de Boor 1978, ch. V].
 /// x ascending; natural ends need at least 2 points (degree 5: 3). Cost: O(n).
 /// Throws InputError.
 [[nodiscard]] Spline spline_through(std::span<const double> x, std::span<const double> y,
