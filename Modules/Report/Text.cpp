@@ -76,6 +76,8 @@ constexpr bool each_row_holds_all_letters() {
 }
 static_assert(each_row_holds_all_letters());
 
+}  // namespace
+
 bool is_inked(char letter, int column, int row) {
     if (letter == ' ') return false;
     for (const Line& line : kFont)
@@ -83,8 +85,6 @@ bool is_inked(char letter, int column, int row) {
             return line.rows[row][at * kLetterStep + column] == '#';
     return column == 0 || column == kLetterWidth - 1 || row == 0 || row == kLetterHeight - 1;
 }
-
-}  // namespace
 
 int text_width(std::string_view text, int size) {
     return text.empty() ? 0 : size * (static_cast<int>(text.size()) * kLetterStep - 1);

@@ -10,6 +10,9 @@ namespace myotet::report {
 /// Letters are 5 x 7 squares, one square apart.
 inline constexpr int kLetterWidth = 5, kLetterHeight = 7, kLetterStep = 6;
 
+/// Whether a letter's square is drawn: `column` from the left, `row` from the top.
+[[nodiscard]] bool is_inked(char letter, int column, int row);
+
 /// Width of a line of text whose squares are `size` pixels wide, pixels.
 [[nodiscard]] int text_width(std::string_view text, int size);
 
