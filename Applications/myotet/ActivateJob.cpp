@@ -12,6 +12,7 @@
 #include "Core/Text.h"
 #include "Machine.h"
 #include "Outputs.h"
+#include "Report/Chart.h"
 
 namespace myotet::app {
 namespace fs = std::filesystem;
@@ -70,6 +71,12 @@ public:
         out_.write(name, [&](const fs::path& file) { skeleton::write_table(table, units, file); });
         report_.files.push_back(name);
     }
+    void draw(const report::Chart& chart) {
+        out_.write("activation.png", [&](const fs::path& file) {
+            report::write_png(report::draw_chart(chart, {.panel_width = 720}), file);
+        });
+        report_.files.emplace_back("activation.png");
+    }
     void finish() {
         report_.files.emplace_back("report.json");
         out_.write("report.json",
@@ -108,6 +115,34 @@ void write_sharing(const Model& model, const MuscleMotion& motion, const Sharing
     results.write(activations, "from 0 to 1", "activation.sto");
     results.write(forces, "N", "force.sto");
     if (any) results.write(reserves, "moments in N mm, forces in N", "reserves.sto");
+}
+
+// A panel each for the activations, the forces and the moments.
+report::Chart chart_of(const Model& model, const MuscleMotion& motion, const Sharing& sharing) {
+    report::Chart chart{.title = model.name, .x_label = "time, s", .columns = 1};
+    report::Panel activations{.title = "activations", .y_label = "activation"};
+    report::Panel forces{.title = "forces of muscles", .y_label = "N"};
+    report::Panel moments{.title = "moments of joints, without those that are held",
+                          .y_label = "N m"};
+    for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+        report::Line activation{.name = model.muscles[m].name, .x = motion.times};
+        report::Line force = activation;
+        for (const activation::Distribution& one : sharing.at) {
+            activation.y.push_back(one.activations[m]);
+            force.y.push_back(one.forces[m]);
+        }
+        activations.lines.push_back(std::move(activation));
+        forces.lines.push_back(std::move(force));
+    }
+    for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+        if (sharing.held[c] || !model.coordinates[c].rotational) continue;
+        report::Line moment{.name = model.coordinates[c].name, .x = motion.times};
+        for (const auto& torques : motion.torques) moment.y.push_back(torques[c] / 1000);
+        moments.lines.push_back(std::move(moment));
+    }
+    chart.panels = {std::move(activations), std::move(forces)};
+    if (!moments.lines.empty()) chart.panels.push_back(std::move(moments));
+    return chart;
 }
 
 void tell_muscles(const Model& model, const Sharing& sharing, ActivateReport& report) {
@@ -203,7 +238,10 @@ ActivateReport run_activate_job(const ActivateJobOptions& options, ProgressSink&
     tell_coordinates(input, motion, sharing, report);
     tell_numbers(sharing, report);
     write_motion(input.model, motion, results);
-    if (sharing.status == Status::converged) write_sharing(input.model, motion, sharing, results);
+    if (sharing.status == Status::converged) {
+        write_sharing(input.model, motion, sharing, results);
+        if (options.pictures) results.draw(chart_of(input.model, motion, sharing));
+    }
     report.seconds["writing"] = watch.lap();
     report.peak_memory = peak_memory();
     report.processor_seconds = processor_seconds();
