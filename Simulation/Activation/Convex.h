@@ -40,7 +40,7 @@ struct ConvexSolution {
 /// Newton's on the conditions of Karush, Kuhn and Tucker whose complementarity is relaxed to
 /// mu, shortened while their residual does not fall [Boyd and Vandenberghe 2004, sec. 11.7];
 /// mu falls as Mehrotra's predictor allows [Nocedal and Wright 2006, sec. 14.2]. Cost of an
-/// iteration: O(x rows^2) when diagonal, O(x y^2 + y rows^2) else; some 10 to 25 of them.
+/// iteration: O(x rows^2) when diagonal, O(x y^2 + y rows^2) else; some 20 to 30 of them.
 [[nodiscard]] ConvexSolution solve_convex(const ConvexProgram& program,
                                           const ConvexOptions& options);
 

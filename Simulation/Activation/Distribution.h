@@ -72,8 +72,8 @@ struct Distribution {
 /// depends, such as one without gain, gets its least activation. Where muscles cannot, the
 /// status is infeasible, the message names the coordinates, and the result is what comes
 /// nearest (least sum of missing torque by capacity). Throws InputError.
-/// Cost: O(muscles coordinates^2) an iteration, some 10 to 20; 6 muscles and 2 coordinates
-/// some 30 us.
+/// Cost: O(muscles coordinates^2) an iteration, some 20 to 30; 6 muscles and 2 coordinates
+/// some 80 us.
 [[nodiscard]] Distribution distribute(const Demand& demand, const DistributionOptions& options);
 
 /// The same of many times, each on its own; same bytes on any number of threads.

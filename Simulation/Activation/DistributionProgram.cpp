@@ -45,8 +45,10 @@ public:
               Eigen::Map<const VectorXd>(demand.gains.data(), demand.arms.cols()).asDiagonal()),
           asked_(Eigen::Map<const VectorXd>(demand.torques.data(), demand.arms.rows())) {
         const std::size_t n = demand.muscles();
-        shares_.lowest = demand.lowest.empty() ? std::vector<double>(n, 0) : demand.lowest;
-        shares_.highest = demand.highest.empty() ? std::vector<double>(n, 1) : demand.highest;
+        shares_.lowest.assign(n, 0);
+        shares_.highest.assign(n, 1);
+        if (!demand.lowest.empty()) shares_.lowest = demand.lowest;
+        if (!demand.highest.empty()) shares_.highest = demand.highest;
         shares_.activations = shares_.lowest;
         if (!demand.passive.empty())
             asked_ -= demand.arms * Eigen::Map<const VectorXd>(demand.passive.data(), to_index(n));

@@ -2,7 +2,7 @@
 #include "Activation/FitCurves.h"
 
 #include <ceres/cost_function.h>
-#include <ceres/manifold.h>
+#include <ceres/crs_matrix.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "Activation/FitTerms.h"
+#include "Activation/ProjectedNewton.h"
 #include "Activation/Require.h"
 
 namespace myotet::activation {
@@ -25,14 +26,12 @@ using Eigen::VectorXd;
 constexpr int kLooks = 4;
 // Gauss's points of an interval, exact for the square of a bend, which is straight there.
 constexpr double kGauss[] = {0.5 - 0.28867513459481287, 0.5 + 0.28867513459481287};
-// More coefficients than this go to a sparse solver.
-constexpr int kDenseCoefficients = 60;
 // Nearer to a bound than this is at it.
 constexpr double kAtBound = 1e-9;
-// Of the cost at the end, beside the first: costs are sums of squares.
+// Of the slope at the end, beside the first cost; sought is a tenth.
 constexpr double kSlope = 1e-6;
-// Of holding coefficients at bounds; most problems need two or three.
-constexpr int kRounds = 50;
+// Of the trust region, before projected steps end it.
+constexpr int kFirstIterations = 20;
 
 // A term at a time as a function of the four columns of coefficients that matter there.
 class LocalCost final : public ceres::CostFunction {
@@ -80,21 +79,7 @@ struct Bounds {
 
     [[nodiscard]] bool low(Index i, double c) const { return c <= lowest[i] + kAtBound; }
     [[nodiscard]] bool high(Index i, double c) const { return c >= highest[i] - kAtBound; }
-    /// Whether a coefficient is at a bound beyond which the cost would fall.
-    [[nodiscard]] bool stop(Index i, double c, double slope) const {
-        return (low(i, c) && slope > 0) || (high(i, c) && slope < 0);
-    }
 };
-
-// The largest that no bound stops.
-double free_slope(const FitValue& value, const ActivationCurves& curves, const Bounds& bounds) {
-    double largest = 0;
-    for (Index j = 0; j < curves.coefficients.cols(); ++j)
-        for (Index i = 0; i < curves.coefficients.rows(); ++i)
-            if (!bounds.stop(i, curves.coefficients(i, j), value.slope(i, j)))
-                largest = std::max(largest, std::abs(value.slope(i, j)));
-    return largest;
-}
 
 // All terms over the coefficients of some curves, which must outlive it.
 class Fit {
@@ -124,33 +109,34 @@ public:
             }
     }
 
-    // Levenberg and Marquardt's steps, projected onto the bounds, end early where bounds stop
-    // part of a step. So coefficients at bounds that the slope pushes outwards are held, the rest
-    // is solved again, and so on until none changes sides.
+    // Levenberg and Marquardt's steps, cut off at the bounds, come near but crawl where many
+    // bounds hold; projected ones of Newton's end it.
     void solve(const Bounds& bounds, FitSummary& out) {
         ceres::Solver::Options how;
-        how.linear_solver_type = curves_.coefficients.size() > kDenseCoefficients
-                                     ? ceres::SPARSE_NORMAL_CHOLESKY
-                                     : ceres::DENSE_QR;
+        how.max_num_iterations = std::min(options_.iterations, kFirstIterations);
+        how.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
         how.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
         how.logging_type = ceres::SILENT;
         how.num_threads = 1;
-        how.function_tolerance = 1e-14;
-        how.gradient_tolerance = 1e-12;
-        how.parameter_tolerance = 1e-12;
-        for (int round = 0; round < kRounds && out.iterations < options_.iterations; ++round) {
-            how.max_num_iterations = options_.iterations - out.iterations;
-            ceres::Solver::Summary summary;
-            ceres::Solve(how, &problem_, &summary);
-            if (round == 0) out.first_cost = summary.initial_cost;
-            out.iterations += static_cast<int>(summary.iterations.size());
-            set_free();
-            const FitValue now = value();
-            out.cost = now.cost;
-            out.slope = free_slope(now, curves_, bounds);
-            if (out.slope <= kSlope * std::max(1.0, out.first_cost)) break;
-            hold(now, bounds);
-        }
+        // Almost linear: little damping, so that directions that hardly cost are found too.
+        how.initial_trust_region_radius = 1e14;
+        how.max_trust_region_radius = 1e20;
+        how.function_tolerance = 1e-3;
+        ceres::Solver::Summary summary;
+        ceres::Solve(how, &problem_, &summary);
+        out.first_cost = summary.initial_cost;
+        const Index columns = curves_.coefficients.cols();
+        VectorXd x = curves_.coefficients.reshaped();
+        const ProjectedResult end = least_within_bounds(
+            [this](const VectorXd& at, bool with_derivatives) {
+                return squares(at, with_derivatives);
+            },
+            bounds.lowest.replicate(columns, 1), bounds.highest.replicate(columns, 1),
+            {.slope = 0.1 * kSlope, .iterations = options_.iterations}, x);
+        curves_.coefficients.reshaped() = x;
+        out.iterations = static_cast<int>(summary.iterations.size()) + end.iterations;
+        out.cost = end.cost;
+        out.slope = end.slope;
     }
 
     [[nodiscard]] FitValue value() {
@@ -162,25 +148,21 @@ public:
     }
 
 private:
-    void set_free() {
-        for (Index j = 0; j < curves_.coefficients.cols(); ++j) {
-            double* column = curves_.coefficients.col(j).data();
-            problem_.SetParameterBlockVariable(column);
-            problem_.SetManifold(column, nullptr);
+    Squares squares(const VectorXd& x, bool with_derivatives) {
+        curves_.coefficients.reshaped() = x;
+        Squares out;
+        if (!with_derivatives) {
+            problem_.Evaluate({}, &out.cost, nullptr, nullptr, nullptr);
+            return out;
         }
-    }
-
-    void hold(const FitValue& now, const Bounds& bounds) {
-        for (Index j = 0; j < curves_.coefficients.cols(); ++j) {
-            std::vector<int> held;
-            for (int i = 0; i < muscles_; ++i)
-                if (bounds.stop(i, curves_.coefficients(i, j), now.slope(i, j))) held.push_back(i);
-            double* column = curves_.coefficients.col(j).data();
-            if (static_cast<int>(held.size()) == muscles_)
-                problem_.SetParameterBlockConstant(column);
-            else if (!held.empty())
-                problem_.SetManifold(column, new ceres::SubsetManifold(muscles_, held));
-        }
+        std::vector<double> slope;
+        ceres::CRSMatrix J;
+        problem_.Evaluate({}, &out.cost, nullptr, &slope, &J);
+        out.slope = Eigen::Map<const VectorXd>(slope.data(), x.size());
+        out.jacobian = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+            J.num_rows, J.num_cols, static_cast<Index>(J.values.size()), J.rows.data(),
+            J.cols.data(), J.values.data());
+        return out;
     }
 
     void add(double time, int residuals, LocalCost::Evaluation evaluate) {

@@ -72,9 +72,10 @@ struct CurveFit {
 /// errors in parts of the usual ones, sums over coordinates or muscles, means over time. The
 /// excitation u that a curve implies is that of muscle::ActivationDynamics,
 ///     a + rise (0.5 + 1.5 a) a'  or  a + fall a' / (0.5 + 1.5 a)  as a' is positive or not,
-/// looked at four times an interval. By Levenberg and Marquardt's method in a trust region
-/// with bounds [Ceres], with exact derivatives. Linear but for excitation and `pull`: some
-/// 10 to 30 iterations of O(times muscles^2 + intervals muscles^3). Same bytes each run.
+/// looked at four times an interval. First by Levenberg and Marquardt's method in a trust
+/// region with bounds [Ceres], then by least_within_bounds, with exact derivatives. Linear but
+/// for excitation and `pull`: some 10 to 30 iterations of O(times muscles^2 + intervals
+/// muscles^3). Same bytes each run.
 /// Throws InputError.
 [[nodiscard]] CurveFit fit_curves(const FitTargets& targets, const FitOptions& options);
 

@@ -10,8 +10,8 @@
 namespace myotet::muscle {
 namespace {
 
-// Of a curve's parameter, from 0 to 1: a few roundings.
-constexpr double kParameterTolerance = 1e-15;
+// Of a curve's parameter, from 0 to 1, before the last step, which squares it.
+constexpr double kParameterTolerance = 1e-12;
 // Bisection alone would need 50.
 constexpr int kMostIterations = 60;
 // Tangents that differ by less than this part of themselves are one straight line.

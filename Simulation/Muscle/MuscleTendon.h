@@ -65,7 +65,7 @@ struct ElasticPull {
 /// `fibre_speed`, mm/s; 0 is the static equilibrium. Found by Newton's method in a bracket,
 /// to rounding. Where active fibres pull less the longer they are, and the tendon is soft,
 /// there may be several; the one found is between fibres as short as may be and a slack
-/// tendon. Cost: some 1 to 5 us.
+/// tendon. Cost: 1 us, with Millard's curves some 12.
 [[nodiscard]] ElasticPull elastic_pull(const MuscleTendon& unit, double length, double activation,
                                        double fibre_speed);
 
