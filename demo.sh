@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds Myotet, makes a phantom of an arm, meshes it and makes its muscles contract.
+# Builds Myotet, makes a phantom of an arm, meshes it and makes its muscles contract; then
+# a moving skeleton lifts a dumbbell with it.
 # May be run again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -13,6 +14,9 @@ myotet=build/release/bin/myotet
 "$myotet" phantom arm -o results/arm.nii.gz
 "$myotet" mesh results/arm.nii.gz -o results/arm
 "$myotet" contract Data/scenes/isometric.yaml -o results/isometric
+"$myotet" activate Data/arm/arm.osim Data/arm/curl.yaml --hold shoulder_flexion \
+  -o results/activations
+"$myotet" contract Data/scenes/curl.yaml -o results/curl
 
 cat <<END
 
@@ -25,6 +29,8 @@ Its biceps and triceps, which contract and relax, are in results/isometric:
   pictures/contraction.png   the whole of it on one sheet
   contraction.pvd            each moment, for ParaView
   history.csv                forces, lengths, volumes
+The activations with which it lifts a dumbbell are in results/activations
+(activation.png, activation.sto), the biceps that does so in results/curl.
 To look at the meshes: paraview results/arm/*.vtu   (then press Apply)
 To mesh your own scan: $myotet mesh SCAN.nii.gz -o FOLDER
 END
