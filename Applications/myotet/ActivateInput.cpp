@@ -143,6 +143,35 @@ double strength_in(const std::string& word, const std::string& text) {
     return *strength;
 }
 
+// Rows are synergies, numbered in the first column; columns are muscles' shares in them.
+void read_synergies(const ActivateJobOptions& options, Model& model,
+                    activation::SharingOptions& sharing) {
+    if (options.synergies.empty()) return;
+    bool any = false;
+    const activation::MuscleTable table =
+        muscle_table(skeleton::read_table(options.synergies), model, "", any);
+    if (!any)
+        throw InputError(options.synergies.string() +
+                         ": no column has the name of a muscle of the model, such as " +
+                         model.muscles.front().name);
+    Eigen::MatrixXd& shares = sharing.distribution.synergies;
+    shares.setZero(static_cast<Eigen::Index>(model.muscles.size()),
+                   static_cast<Eigen::Index>(table.rows.size()));
+    for (Eigen::Index s = 0; s < shares.cols(); ++s)
+        for (Eigen::Index m = 0; m < shares.rows(); ++m) {
+            const double share =
+                table.rows[static_cast<std::size_t>(s)][static_cast<std::size_t>(m)];
+            if (share < 0)
+                throw InputError(options.synergies.string() + ": " +
+                                 model.muscles[static_cast<std::size_t>(m)].name + " has " +
+                                 rounded(share) + " in synergy " + std::to_string(s + 1) +
+                                 ", but shares are not negative");
+            if (!std::isnan(share)) shares(m, s) = share;
+        }
+    // What no synergy drives is relaxed, and so may be the others.
+    for (skeleton::Muscle& muscle : model.muscles) muscle.lowest_activation = 0;
+}
+
 std::size_t coordinate_of(const Model& model, const std::string& name, const std::string& option) {
     std::vector<std::string> known;
     for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
@@ -199,6 +228,7 @@ ActivateInput read_activate_input(const ActivateJobOptions& options) {
     sharing.force_velocity = !options.still;
     read_bounds(options, input.model, sharing);
     read_emg(options, input.model, sharing);
+    read_synergies(options, input.model, sharing);
     return input;
 }
 

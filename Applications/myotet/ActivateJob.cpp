@@ -99,6 +99,19 @@ void write_motion(const Model& model, const MuscleMotion& motion, Results& resul
     results.write(arms_table(model, motion), "mm", "moment_arms.sto");
 }
 
+void write_curves(const Model& model, const MuscleMotion& motion,
+                  const activation::SharedCurves& curves, Results& results) {
+    Table activations = muscles_table("activation curves", model, motion);
+    Table forces = muscles_table("forces of activation curves", model, motion);
+    Table left = coordinates_table("torques that activation curves leave", model, motion);
+    activations.rows = curves.activations;
+    forces.rows = curves.forces;
+    left.rows = curves.left;
+    results.write(activations, "from 0 to 1", "activation.sto");
+    results.write(forces, "N", "force.sto");
+    results.write(left, "moments in N mm, forces in N", "moments_left.sto");
+}
+
 void write_sharing(const Model& model, const MuscleMotion& motion, const Sharing& sharing,
                    Results& results) {
     Table activations = muscles_table("muscle force distribution: activations", model, motion);
@@ -114,7 +127,26 @@ void write_sharing(const Model& model, const MuscleMotion& motion, const Sharing
     }
     results.write(activations, "from 0 to 1", "activation.sto");
     results.write(forces, "N", "force.sto");
+    if (!sharing.at.front().amounts.empty()) {
+        Table amounts{.title = "amounts of synergies", .times = motion.times};
+        for (std::size_t s = 0; s < sharing.at.front().amounts.size(); ++s)
+            amounts.columns.push_back("synergy_" + std::to_string(s + 1));
+        for (const activation::Distribution& one : sharing.at) amounts.rows.push_back(one.amounts);
+        results.write(amounts, "from 0", "synergies.sto");
+    }
     if (any) results.write(reserves, "moments in N mm, forces in N", "reserves.sto");
+}
+
+// What the report and the picture tell is of the curves, then.
+void put_curves(const activation::SharedCurves& curves, Sharing& sharing) {
+    sharing.status = curves.fit.status;
+    sharing.message = curves.fit.message;
+    for (std::size_t t = 0; t < sharing.at.size(); ++t) {
+        sharing.at[t].activations = curves.activations[t];
+        sharing.at[t].forces = curves.forces[t];
+        sharing.at[t].missing = curves.left[t];
+        sharing.at[t].bounds.assign(curves.activations[t].size(), 0);
+    }
 }
 
 // A panel each for the activations, the forces and the moments.
@@ -209,7 +241,9 @@ ActivateReport begin_report(const ActivateJobOptions& options, const ActivateInp
                       {"reserves", options.reserves.empty() ? "none" : list_of(options.reserves)},
                       {"hold", options.held.empty() ? "none" : list_of(options.held)},
                       {"bounds", options.bounds.string()},
-                      {"emg", options.emg.string()}};
+                      {"emg", options.emg.string()},
+                      {"synergies", options.synergies.string()},
+                      {"curves_s", options.curves > 0 ? rounded(options.curves) : "none"}};
     report.warnings = input.warnings;
     report.notes = input.notes;
     return report;
@@ -229,17 +263,28 @@ ActivateReport run_activate_job(const ActivateJobOptions& options, ProgressSink&
                                                            input.times, options.still, progress);
     report.warnings.insert(report.warnings.end(), motion.notes.begin(), motion.notes.end());
     report.seconds["inverse dynamics"] = watch.lap();
-    const Sharing sharing = activation::share(input.model, motion, input.sharing, progress);
+    Sharing sharing = activation::share(input.model, motion, input.sharing, progress);
     report.notes.insert(report.notes.end(), sharing.notes.begin(), sharing.notes.end());
     for (const std::string& warning : report.warnings) progress.warn(warning);
     report.seconds["distribution"] = watch.lap();
 
+    std::optional<activation::SharedCurves> curves;
+    if (options.curves > 0 && sharing.status == Status::converged) {
+        curves = activation::share_by_curves(input.model, motion, input.sharing, sharing,
+                                             options.curves);
+        put_curves(*curves, sharing);
+        report.curves = curves->fit;
+        report.seconds["curves"] = watch.lap();
+    }
     tell_muscles(input.model, sharing, report);
     tell_coordinates(input, motion, sharing, report);
     tell_numbers(sharing, report);
     write_motion(input.model, motion, results);
     if (sharing.status == Status::converged) {
-        write_sharing(input.model, motion, sharing, results);
+        if (curves)
+            write_curves(input.model, motion, *curves, results);
+        else
+            write_sharing(input.model, motion, sharing, results);
         if (options.pictures) results.draw(chart_of(input.model, motion, sharing));
     }
     report.seconds["writing"] = watch.lap();

@@ -3,10 +3,11 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "Activation/Sharing.h"
+#include "Activation/SharedCurves.h"
 
 namespace myotet::app {
 
@@ -20,6 +21,8 @@ struct ActivateJobOptions {
     bool still = false;                 ///< static: no speeds, no inertia
     std::filesystem::path bounds, emg;  ///< tables; empty: none
     double tracking = 1;                ///< of what `emg` says
+    std::filesystem::path synergies;    ///< a table; empty: each muscle on its own
+    double curves = 0;  ///< s between knots of activation curves; 0: each time on its own
     std::vector<std::string> reserves;  ///< "NAME=STRENGTH", or "STRENGTH" for all, N mm or N
     std::vector<std::string> held;      ///< coordinates whose torque is left to what holds them
     double cutoff_hz = 0;               ///< of the motion; 0: as it is
@@ -56,7 +59,8 @@ struct ActivateReport {
     double begin = 0, end = 0;  ///< s
     double largest_residual = 0, largest_torque_residual = 0;
     int iterations = 0;
-    std::map<std::string, double> seconds;  ///< by stage
+    std::optional<activation::FitSummary> curves;  ///< instead of each time on its own
+    std::map<std::string, double> seconds;         ///< by stage
     double peak_memory = 0, processor_seconds = 0;
     std::vector<std::pair<std::string, std::string>> options;  ///< as resolved
     std::vector<std::string> warnings, notes, files;

@@ -32,6 +32,11 @@ std::string to_json(const ActivateReport& report) {
     json["largest_kkt_residual"] = report.largest_residual;
     json["largest_torque_residual"] = report.largest_torque_residual;
     json["iterations"] = report.iterations;
+    if (report.curves)
+        json["curves"] = {{"iterations", report.curves->iterations},
+                          {"torque_rms_N_mm", report.curves->torque_rms},
+                          {"measured_rms", report.curves->measured_rms},
+                          {"excitation_outside_0_to_1", report.curves->excitation_out}};
     json["muscles"] = Json::array();
     for (const ActivateMuscle& m : report.muscles)
         json["muscles"].push_back({{"name", m.name},
@@ -70,6 +75,9 @@ std::string to_table(const ActivateReport& report) {
             line("  %-25s %9.4g %-6s %9.4g %-6s %9.4g%s\n", c.name.c_str(), c.largest_torque,
                  c.rotational ? "N mm" : "N", c.held ? 0.0 : c.largest_reserve,
                  c.rotational ? "N mm" : "N", c.missing, c.held ? "  left to what holds it" : "");
+    if (report.curves)
+        return text + line("  curves leave %.3g N mm (rms); excitation leaves 0 to 1 by %.2g\n",
+                           report.curves->torque_rms, report.curves->excitation_out);
     text += line("  KKT residual %.1e, torque residual %.1e, %d iterations\n",
                  report.largest_residual, report.largest_torque_residual, report.iterations);
     return text;

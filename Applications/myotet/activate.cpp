@@ -73,6 +73,17 @@ void add_options(CLI::App& command, Arguments& a) {
         ->needs(emg)
         ->type_name("WEIGHT");
     command
+        .add_option("--synergies", a.job.synergies,
+                    "muscles are driven together: a row a synergy, numbered in the first column, "
+                    "a column a MUSCLE with its share (.csv)")
+        ->type_name("FILE");
+    command
+        .add_option("--curves", a.job.curves,
+                    "instead of each time on its own, smooth activation curves that keep to the "
+                    "muscles' rise and fall, a knot each S seconds; what torque they leave is told")
+        ->check(kPositive)
+        ->type_name("S");
+    command
         .add_option("--reserves", a.job.reserves,
                     "actuators that help where muscles cannot: NAME=STRENGTH,... or one STRENGTH "
                     "for all, N mm for angles, N for lengths (default: none)")

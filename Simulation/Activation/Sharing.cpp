@@ -55,21 +55,6 @@ bool is_elastic(const SkeletonUnit& unit, Tendons tendons) {
     return tendons == Tendons::elastic || (tendons == Tendons::as_modelled && !unit.rigid_tendon);
 }
 
-// Pulls of one time; those of rigid tendons are in proportion.
-PullOf pulls_at(std::span<const SkeletonUnit> units, const Demand& demand,
-                const MuscleMotion& motion, std::size_t t, const SharingOptions& options) {
-    return [=, &demand, &motion, &options](std::size_t m, double activation) -> Pull {
-        if (!is_elastic(units[m], options.tendons))
-            return {demand.passive[m] + demand.gains[m] * activation, demand.gains[m]};
-        const double speed = options.force_velocity ? motion.speeds[t][m] : 0;
-        const muscle::ElasticPull pull =
-            elastic_pull(units[m].unit, muscle::UnitMotion{.length = motion.lengths[t][m],
-                                                           .speed = speed,
-                                                           .activation = activation});
-        return {pull.force, pull.force_by_activation};
-    };
-}
-
 void tell_worst(const MuscleMotion& motion, Sharing& sharing) {
     sharing.status = Status::converged;
     for (std::size_t t = 0; t < sharing.at.size(); ++t) {
@@ -129,6 +114,20 @@ std::vector<Demand> demands_of(const Model& model, std::span<const SkeletonUnit>
         demands.push_back(std::move(demand));
     }
     return demands;
+}
+
+PullOf pulls_at(std::span<const SkeletonUnit> units, const Demand& demand,
+                const MuscleMotion& motion, std::size_t t, const SharingOptions& options) {
+    return [=, &demand, &motion, &options](std::size_t m, double activation) -> Pull {
+        if (!is_elastic(units[m], options.tendons))
+            return {demand.passive[m] + demand.gains[m] * activation, demand.gains[m]};
+        const double speed = options.force_velocity ? motion.speeds[t][m] : 0;
+        const muscle::ElasticPull pull =
+            elastic_pull(units[m].unit, muscle::UnitMotion{.length = motion.lengths[t][m],
+                                                           .speed = speed,
+                                                           .activation = activation});
+        return {pull.force, pull.force_by_activation};
+    };
 }
 
 Sharing share(const Model& model, const MuscleMotion& motion, const SharingOptions& options,

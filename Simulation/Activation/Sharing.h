@@ -56,6 +56,12 @@ struct Sharing {
                                              const MuscleMotion& motion,
                                              const SharingOptions& options);
 
+/// Pulls of the muscles at one of the motion's times; those of rigid tendons are in
+/// proportion to activation. All arguments must outlive it.
+[[nodiscard]] PullOf pulls_at(std::span<const SkeletonUnit> units, const Demand& demand,
+                              const MuscleMotion& motion, std::size_t time,
+                              const SharingOptions& options);
+
 /// Static optimisation of a whole motion, each time on its own. Elastic tendons: fibres
 /// are in equilibrium with them and lengthen as they would at a constant activation.
 /// Throws InputError.
