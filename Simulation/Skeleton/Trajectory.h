@@ -52,11 +52,11 @@ struct Trajectory {
 
 /// The motion of a table whose columns are coordinates of the model (find_column): angles in
 /// rad, or degrees when the table says so, lengths in m. Coordinates that it does not tell
-/// follow their prescribed function or keep their default; one row, or one of a coordinate,
-/// is held. Locked coordinates move as the table says. To filter, rows that do not stand at
-/// equal times are first taken at the shortest distance of two of them, from a spline, and
-/// each end is continued by half the rows, turned about its point.
-/// Throws InputError when no column is a coordinate's, a column is two coordinates', the
+/// follow their prescribed function or keep their default; a single row is held. Locked
+/// coordinates move as the table says. To filter, rows that do not stand at equal times are
+/// first taken at the shortest distance of two of them, from a spline, and each end is
+/// continued by half the rows, turned about its point.
+/// Throws InputError when no column is a coordinate's, two columns are one coordinate's, the
 /// cutoff is not below half the rows' frequency, or there are too few rows (4 to filter, 3
 /// for degree 5 with natural ends).
 [[nodiscard]] Trajectory make_trajectory(const Table& table, const Model& model,

@@ -5,6 +5,7 @@
 #include "Skeleton/Skeleton.h"
 
 namespace myotet::skeleton {
+using namespace std::string_literals;
 namespace {
 
 /// A file is a model, which may be one that cannot move, or is refused; nothing else happens.
@@ -41,7 +42,7 @@ SmallModel whole() {
 TEST(DamagedOsim, BytesThatChangeDoNoHarm) {
     const std::string text = whole().text();
     std::mt19937 random(7);
-    const std::string bytes("<>/\"&;-+.e09 \0\xff\x80nai", 23);
+    const std::string bytes = "<>/\"&;-+.e09 \0\xff\x80nai"s;
     for (int trial = 0; trial < 1500; ++trial) {
         std::string damaged = text;
         for (unsigned hits = 1 + random() % 3; hits > 0; --hits)
