@@ -211,6 +211,8 @@ bool PathFinder::add(int wrap) {
         const bool whole = piece.from_point && piece.to_point;
         const auto pass = pass_of(wrap, piece);
         if (whole && pass != passes_.end()) before.side = pass->side;
+        // A ring that is touched is not to be passed through once more.
+        if (touches > 0) before.side = Vec3::UnitZ();
         Candidate candidate{piece, try_wrap(wrap, piece, before)};
         inside_[wrap] |= candidate.wrap.touch == WrapTouch::inside;
         if (whole) keep_side(wrap, piece, candidate.wrap.side);
