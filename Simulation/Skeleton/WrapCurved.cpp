@@ -80,6 +80,8 @@ public:
     }
     [[nodiscard]] bool allows(const Vec3& middle) const { return middle.dot(half_) >= 0; }
 
+    void allow_all() { half_ = Vec3::Zero(); }
+
     /// Tries a guess; keeps the path when it is shorter than that kept before.
     void consider(const WrapGuess& guess) {
         const auto curve = tighten(surface_, ends_.from, ends_.to, guess.curve);
@@ -130,6 +132,10 @@ Wrap begin(const WrapObject& object, const WrapSurface& surface, const Ends& end
         if (choice.found && guess.length > kLonger * guesses.front().length) break;
         if (choice.allows(guess.side)) choice.consider(guess);
     }
+    // Better on the other side than through the object.
+    if (!choice.found) choice.allow_all();
+    for (const WrapGuess& guess : guesses)
+        if (!choice.found) choice.consider(guess);
     if (!choice.found) return wrap;
     wrap.touch = WrapTouch::touching;
     wrap.contact = choice.contact;
