@@ -30,6 +30,9 @@ struct Path {
     /// Wrap objects that are left out because a neighbouring point of the path lies inside:
     /// the path may run through them.
     std::vector<int> inside;
+    /// Wrap objects that the path runs through because no taut path over them was found, such
+    /// as a ring that a string would have to touch at more than two places.
+    std::vector<int> missed;
 };
 
 /// What a path remembers from the pose before, so that it does not jump to the other side

@@ -51,6 +51,7 @@ PathFinder::PathFinder(const Model& model, const Muscle& muscle, std::span<const
       muscle_(muscle),
       points_(place_points(muscle, bodies, values)),
       inside_(muscle.wraps.size(), 0),
+      missed_(muscle.wraps.size(), 0),
       made_room_(muscle.wraps.size(), 0) {
     for (std::size_t i = 1; i < points_.size(); ++i)
         scale_ += (points_[i].at - points_[i - 1].at).norm();
@@ -196,14 +197,36 @@ void PathFinder::keep_side(int wrap, const Straight& piece, const Vec3& side) {
         passes_.push_back({wrap, points_[piece.place].index, points_[piece.place + 1].index, side});
 }
 
+/// Whether a straight piece beyond those beside its contact runs through an object.
+bool PathFinder::runs_through(int wrap) const {
+    const Tool& tool = tools_[wrap];
+    WrapMemory before;
+    if (tool.surface.is_torus()) before.side = Vec3::UnitZ();
+    for (const Straight& piece : straight_pieces()) {
+        const int begin = points_[piece.place].index, end = points_[piece.place + 1].index;
+        if (begin < tool.first || end > tool.last) continue;
+        const auto touched = [&](std::size_t contact, bool point) {
+            return !point && contacts_[contact].wrap == wrap;
+        };
+        const bool beside =
+            touched(piece.after - 1, piece.from_point) || touched(piece.after, piece.to_point);
+        if (beside && !tool.surface.is_torus()) continue;
+        if (try_wrap(wrap, piece, before).pierced) return true;
+    }
+    return false;
+}
+
 /// Brings a wrap into contact where it acts.
 bool PathFinder::add(int wrap) {
     const Tool& tool = tools_[wrap];
     const int touches = count(wrap);
-    if (!tool.object->active || touches >= (tool.surface.is_torus() ? kMostTouches : 1))
+    if (!tool.object->active) return false;
+    if (touches >= (tool.surface.is_torus() ? kMostTouches : 1)) {
+        missed_[wrap] = runs_through(wrap);
         return false;
+    }
     std::optional<Candidate> best;
-    inside_[wrap] = 0;
+    inside_[wrap] = missed_[wrap] = 0;
     for (const Straight& piece : straight_pieces()) {
         const int begin = points_[piece.place].index, end = points_[piece.place + 1].index;
         if (begin < tool.first || end > tool.last) continue;
@@ -211,9 +234,12 @@ bool PathFinder::add(int wrap) {
         const bool whole = piece.from_point && piece.to_point;
         const auto pass = pass_of(wrap, piece);
         if (whole && pass != passes_.end()) before.side = pass->side;
+        // A ring that is touched is not to be passed through once more.
+        if (touches > 0) before.side = Vec3::UnitZ();
         Candidate candidate{piece, try_wrap(wrap, piece, before)};
         inside_[wrap] |= candidate.wrap.touch == WrapTouch::inside;
         if (whole) keep_side(wrap, piece, candidate.wrap.side);
+        missed_[wrap] |= candidate.wrap.pierced && candidate.wrap.touch == WrapTouch::clear;
         if (candidate.wrap.touch != WrapTouch::touching) continue;
         if (touches > 0 && !candidate.wrap.pierced) continue;
         candidate.longer = wrapped_length(candidate.wrap.contact, tool.pose.to_rest(piece.from),
@@ -225,7 +251,7 @@ bool PathFinder::add(int wrap) {
     }
     if (!best) return false;
     insert(wrap, *best);
-    inside_[wrap] = 0;
+    inside_[wrap] = missed_[wrap] = 0;
     return true;
 }
 
@@ -289,8 +315,10 @@ Path PathFinder::path() const {
             add_node({tool.pose(on.last.at), body, -1, -1, 0, turn * on.last.along});
         }
     }
-    for (std::size_t w = 0; w < tools_.size(); ++w)
+    for (std::size_t w = 0; w < tools_.size(); ++w) {
         if (inside_[w]) path.inside.push_back(muscle_.wraps[w].object);
+        if (missed_[w]) path.missed.push_back(muscle_.wraps[w].object);
+    }
     return path;
 }
 

@@ -62,6 +62,7 @@ private:
     [[nodiscard]] bool act(std::size_t contact, double& moved);
     void tighten();
     [[nodiscard]] bool add(int wrap);
+    [[nodiscard]] bool runs_through(int wrap) const;
     [[nodiscard]] bool make_room(int wrap);
     [[nodiscard]] std::vector<PathMemory::Pass>::iterator pass_of(int wrap, const Straight& piece);
     void keep_side(int wrap, const Straight& piece, const Vec3& side);
@@ -75,7 +76,7 @@ private:
     std::vector<Tool> tools_;
     std::vector<Contact> contacts_;
     std::vector<PathMemory::Pass> passes_;
-    std::vector<char> inside_, made_room_;
+    std::vector<char> inside_, missed_, made_room_;
     double scale_ = 0;  ///< of the path, mm
 };
 

@@ -51,7 +51,7 @@ struct Wrap {
 ///   while both of its contact points lie beyond the ends. When it touches it stays as on
 ///   an endless one.
 /// - torus: it passes through the hole when its ends lie on both sides of the ring's plane,
-///   else it is free to leave by the shorter way.
+///   else, and when it was clear of the ring in the pose before, by the shorter way.
 /// A path without a quadrant that is dragged so far across a sphere or ellipsoid that it is
 /// no longer the shortest among its neighbours slips off to the shortest.
 ///

@@ -72,13 +72,15 @@ std::optional<TautCurve> follow_in_parts(const WrapSurface& surface, const WrapM
 /// Paths are on the side that was asked for.
 class Choice {
 public:
-    Choice(const WrapObject& object, const WrapSurface& surface, const Ends& ends)
-        : surface_(surface), ends_(ends) {
+    Choice(const WrapObject& object, const WrapSurface& surface, const Ends& ends, RingWay way)
+        : surface_(surface), ends_(ends), way_(way) {
         if (!has_quadrant(object) || surface.is_torus()) return;
         const Vec3 half = quadrant_direction(object);
         if (!(ends.from.dot(half) > 0 && ends.to.dot(half) > 0)) half_ = half;
     }
     [[nodiscard]] bool allows(const Vec3& middle) const { return middle.dot(half_) >= 0; }
+
+    void allow_all() { half_ = Vec3::Zero(); }
 
     /// Tries a guess; keeps the path when it is shorter than that kept before.
     void consider(const WrapGuess& guess) {
@@ -102,29 +104,38 @@ public:
 
 private:
     [[nodiscard]] bool through_hole(const Vec3& middle) const {
-        return !(ends_.from[2] * ends_.to[2] < 0) ||
+        return way_ == RingWay::nearest || !(ends_.from[2] * ends_.to[2] < 0) ||
                std::hypot(middle[0], middle[1]) < surface_.core();
     }
 
     const WrapSurface& surface_;
     const Ends& ends_;
+    RingWay way_;
     Vec3 half_ = Vec3::Zero();
     double length_ = 0;
 };
 
-/// A path that is not remembered.
-Wrap begin(const WrapObject& object, const WrapSurface& surface, const Ends& ends) {
+/// A path that did not touch before.
+Wrap begin(const WrapObject& object, const WrapSurface& surface, const Ends& ends,
+           const WrapMemory& before) {
+    const RingWay way = before.side.squaredNorm() > 0 ? RingWay::nearest : RingWay::through_hole;
     const std::vector<WrapGuess> guesses = surface.is_torus()
-                                               ? torus_guesses(surface, ends.from, ends.to)
+                                               ? torus_guesses(surface, ends.from, ends.to, way)
                                                : ellipsoid_guesses(surface, ends.from, ends.to);
     Wrap wrap;
+    // That it was clear of a ring is all that there is to remember.
+    if (surface.is_torus()) wrap.side = Vec3::UnitZ();
     if (guesses.empty()) return wrap;
     wrap.pierced = true;
-    Choice choice(object, surface, ends);
+    Choice choice(object, surface, ends, way);
     for (const WrapGuess& guess : guesses) {
         if (choice.found && guess.length > kLonger * guesses.front().length) break;
         if (choice.allows(guess.side)) choice.consider(guess);
     }
+    // Better on the other side than through the object.
+    if (!choice.found) choice.allow_all();
+    for (const WrapGuess& guess : guesses)
+        if (!choice.found) choice.consider(guess);
     if (!choice.found) return wrap;
     wrap.touch = WrapTouch::touching;
     wrap.contact = choice.contact;
@@ -137,11 +148,11 @@ Wrap begin(const WrapObject& object, const WrapSurface& surface, const Ends& end
 Wrap wrap_curved(const WrapObject& object, const WrapSurface& surface, const Vec3& from,
                  const Vec3& to, const WrapMemory& before) {
     const Ends ends{from, to};
-    if (!before.touching) return begin(object, surface, ends);
+    if (!before.touching) return begin(object, surface, ends, before);
     const auto curve = follow_in_parts(surface, before, ends);
-    if (!curve || !(curve->length > 0)) return begin(object, surface, ends);
+    if (!curve || !(curve->length > 0)) return begin(object, surface, ends, before);
     if (!has_quadrant(object) && !(spread(*curve, from, to) > 0))
-        return begin(object, surface, ends);
+        return begin(object, surface, ends, before);
     Wrap wrap;
     wrap.touch = WrapTouch::touching;
     wrap.contact = contact_of(*curve);

@@ -21,10 +21,15 @@ struct WrapGuess {
 [[nodiscard]] std::vector<WrapGuess> ellipsoid_guesses(const WrapSurface& surface, const Vec3& from,
                                                        const Vec3& to);
 
-/// The path through the hole over the cylinder that is tangent to the tube where the straight
-/// piece is most in the way; none where it passes clear.
+/// Which way a path goes past a ring.
+enum class RingWay {
+    through_hole,  ///< when its ends lie on both sides of the ring's plane
+    nearest,
+};
+/// Paths over the cylinder that is tangent to the tube where the straight piece is most in
+/// the way, or misses the hole, then over those beside it; none where it passes clear.
 [[nodiscard]] std::vector<WrapGuess> torus_guesses(const WrapSurface& surface, const Vec3& from,
-                                                   const Vec3& to);
+                                                   const Vec3& to, RingWay way);
 
 /// As find_wrap; ends outside.
 [[nodiscard]] Wrap wrap_curved(const WrapObject& object, const WrapSurface& surface,

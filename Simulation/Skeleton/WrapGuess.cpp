@@ -16,6 +16,9 @@ constexpr int kPlanes = 24;
 constexpr int kPieces = 8;
 // Points of the straight piece beside which the ring is looked for, and halvings after.
 constexpr int kSamples = 64, kHalvings = 40;
+// A straight piece less deep in the tube than this part of its radius only touches it, as
+// those beside a contact do.
+constexpr double kTouching = 1e-9;
 // How far along the ring from there a path is tried, rad.
 constexpr std::array kAlongRing{0.0, 0.15, -0.15, 0.3, -0.3, 0.7, -0.7};
 
@@ -83,7 +86,8 @@ bool misses_hole(const WrapSurface& surface, const Vec3& from, const Vec3& to) {
     return std::hypot(at[0], at[1]) > surface.core();
 }
 
-/// Over the cylinder tangent to the tube at an angle around the ring, on the hole's side.
+/// Over the cylinder tangent to the tube at an angle around the ring, where x points into
+/// the hole.
 WrapGuess over_tube(const WrapObject& ring, const WrapSurface& surface, const Vec3& from,
                     const Vec3& to, double angle) {
     const Vec3 out{std::cos(angle), std::sin(angle), 0}, along{-out[1], out[0], 0};
@@ -140,13 +144,16 @@ std::vector<WrapGuess> ellipsoid_guesses(const WrapSurface& surface, const Vec3&
     return shortest;
 }
 
-std::vector<WrapGuess> torus_guesses(const WrapSurface& surface, const Vec3& from, const Vec3& to) {
+std::vector<WrapGuess> torus_guesses(const WrapSurface& surface, const Vec3& from, const Vec3& to,
+                                     RingWay way) {
     const Vec3 next = next_to_ring(surface, from, to);
-    if (!(from_ring(surface, next) < surface.tube()) && !misses_hole(surface, from, to)) return {};
+    const bool through = way == RingWay::through_hole;
+    const bool pierces = from_ring(surface, next) < (1 - kTouching) * surface.tube();
+    if (!pierces && !(through && misses_hole(surface, from, to))) return {};
     WrapObject tube;
     tube.shape = WrapShape::cylinder;
     tube.size = {surface.tube(), std::numeric_limits<double>::infinity(), 0};
-    tube.quadrant = {0, 1};
+    if (through) tube.quadrant = {0, 1};
     std::vector<WrapGuess> guesses;
     for (const double along : kAlongRing) {
         const double angle = std::atan2(next[1], next[0]) + along;

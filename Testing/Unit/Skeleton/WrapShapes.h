@@ -36,7 +36,7 @@ inline WrapObject torus(double core, double tube) {
 /// The shapes of arm26 among others.
 inline std::vector<WrapObject> convex_objects() {
     return {sphere(10), cylinder(16, 500), ellipsoid(35, 20, 20), ellipsoid(25, 20, 14),
-            ellipsoid(40, 40, 8)};
+            ellipsoid(30, 30, 18)};
 }
 
 class Dice {
