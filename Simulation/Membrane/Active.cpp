@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Membrane/Active.h"
+
+#include <algorithm>
+
+namespace myotet::membrane {
+
+namespace {
+
+class Gathering {
+public:
+    Gathering(const Levels& levels, const Selection& selection,
+              std::span<const LevelProperties> properties)
+        : levels_(levels), selection_(selection), properties_(properties) {
+        active_.mass.assign(levels.rest.size(), 0);
+        edges_of_.assign(levels.rest.size(), 0);
+        touched_.assign(levels.rest.size(), 0);
+    }
+
+    Active run() {
+        std::vector<std::int32_t> now(levels_.meshes[0].triangles.size()), finer;
+        for (std::size_t f = 0; f < now.size(); ++f) now[f] = static_cast<std::int32_t>(f);
+        for (int level = 0; !now.empty(); ++level) {
+            active_.finest = level;
+            gather_level(level, now, finer);
+            std::swap(now, finer);
+        }
+        for (std::size_t v = 0; v < edges_of_.size(); ++v)
+            if (edges_of_[v] > 0) active_.nodes.push_back(static_cast<std::int32_t>(v));
+        share_mass();
+        return std::move(active_);
+    }
+
+private:
+    const Levels& levels_;
+    const Selection& selection_;
+    std::span<const LevelProperties> properties_;
+    Active active_;
+    std::vector<int> edges_of_;  // how many a node's mass is the mean of
+    std::vector<char> touched_;  // by a refined triangle
+
+    bool refined(int level, std::int32_t f) const {
+        return level < levels_.finest() && selection_.is_refined(level, f);
+    }
+    // Whether the triangle beyond a half-edge is finer, or coarser.
+    bool finer_beyond(int level, std::int32_t h) const {
+        const std::int32_t twin = levels_.meshes[level].twin[h];
+        return twin >= 0 && selection_.exists(level, twin / 3) && refined(level, twin / 3);
+    }
+
+    void gather_level(int level, const std::vector<std::int32_t>& now,
+                      std::vector<std::int32_t>& finer) {
+        const HalfEdges& mesh = levels_.meshes[level];
+        finer.clear();
+        for (const std::int32_t f : now) {
+            if (refined(level, f)) {
+                for (std::int32_t part = 4 * f; part < 4 * f + 4; ++part) finer.push_back(part);
+                for (const std::int32_t v : mesh.triangles[f]) touched_[v] = 1;
+                for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h)
+                    touched_[levels_.midpoint(level, h)] = 1;
+                continue;
+            }
+            for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) add_side(level, h);
+            draw(level, f);
+        }
+    }
+
+    // The triangle beyond: of the same level, finer, coarser or none. The first
+    // is visited for both sides, the one with the smaller half-edge adds the spring.
+    void add_side(int level, std::int32_t h) {
+        const HalfEdges& mesh = levels_.meshes[level];
+        const std::int32_t twin = mesh.twin[h], a = mesh.from(h), b = mesh.to(h);
+        const bool beside = twin >= 0 && selection_.exists(level, twin / 3);
+        const bool finer = finer_beyond(level, h);
+        if (beside && !finer && twin < h) return;
+        const double share = beside && !finer ? 1 : 0.5;
+        const LevelProperties& p = properties_[level];
+        active_.springs.push_back({a, b, (levels_.rest[a] - levels_.rest[b]).norm(),
+                                   share * p.stiffness, share * p.damping});
+        if (finer) {  // the finer side's two edges count for mass, not this one
+            active_.hanging.push_back({levels_.midpoint(level, h), a, b, Vec3::Zero()});
+            return;
+        }
+        for (const std::int32_t v : {a, b}) {  // [Choi05, eq. 7]
+            active_.mass[v] += p.mass;
+            ++edges_of_[v];
+        }
+    }
+
+    void draw(int level, std::int32_t f) {
+        const Triangle& t = levels_.meshes[level].triangles[f];
+        Triangle m{};
+        std::array<bool, 3> hangs{};
+        for (int i = 0; i < 3; ++i) {
+            hangs[i] = finer_beyond(level, 3 * f + i);
+            if (hangs[i]) m[i] = levels_.midpoint(level, 3 * f + i);
+        }
+        const auto count = std::count(hangs.begin(), hangs.end(), true);
+        ++active_.types[count];
+        auto& drawn = active_.drawn;
+        if (count == 0) drawn.push_back(t);
+        if (count == 3) {
+            drawn.insert(drawn.end(), {{t[0], m[0], m[2]},
+                                       {t[1], m[1], m[0]},
+                                       {t[2], m[2], m[1]},
+                                       {m[0], m[1], m[2]}});
+        }
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            if (count == 1 && hangs[i])
+                drawn.insert(drawn.end(), {{t[i], m[i], t[k]}, {m[i], t[j], t[k]}});
+            if (count == 2 && !hangs[k])  // both other sides meet at corner j
+                drawn.insert(drawn.end(),
+                             {{m[i], t[j], m[j]}, {t[i], m[i], m[j]}, {t[i], m[j], t[k]}});
+        }
+    }
+
+    void share_mass() {
+        double total = 0, kept = 0, changed = 0;
+        total = properties_[0].mass * levels_.given();
+        for (const std::int32_t v : active_.nodes) {
+            active_.mass[v] /= edges_of_[v];
+            (touched_[v] ? changed : kept) += active_.mass[v];
+        }
+        for (const std::int32_t v : active_.nodes)
+            if (touched_[v]) active_.mass[v] *= (total - kept) / changed;
+        active_.inertia = active_.mass;
+        for (std::size_t i = active_.hanging.size(); i-- > 0;) {
+            const Hanging& h = active_.hanging[i];
+            active_.inertia[h.a] += active_.inertia[h.node] / 2;
+            active_.inertia[h.b] += active_.inertia[h.node] / 2;
+            active_.inertia[h.node] = 0;
+        }
+    }
+};
+
+}  // namespace
+
+Active make_active(const Levels& levels, const Selection& selection,
+                   std::span<const LevelProperties> properties) {
+    return Gathering(levels, selection, properties).run();
+}
+
+}  // namespace myotet::membrane

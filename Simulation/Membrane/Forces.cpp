@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Membrane/Forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myotet::membrane {
+
+namespace {
+
+// Area of the wall that a tonne of it has, mm^2/t.
+double area_of_mass(const Wall& wall) { return 1 / (wall.thickness * wall.density); }
+
+void add_springs(const Active& active, const Motion& motion, std::vector<Vec3>& force) {
+    for (const Spring& s : active.springs) {
+        const Vec3 dx = motion.x[s.a] - motion.x[s.b];
+        const double length = dx.norm();
+        if (!(length > 0)) continue;
+        // g = -[k_s (|dx| - r) + k_d dv . dx / |dx|] dx / |dx|  [Choi05, eq. 2]
+        const double pull = s.stiffness * (length - s.rest) +
+                            s.damping * (motion.v[s.a] - motion.v[s.b]).dot(dx) / length;
+        const Vec3 g = (-pull / length) * dx;
+        force[s.a] += g;
+        force[s.b] -= g;
+    }
+}
+
+void add_shape(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
+    const Wall& wall = body.wall;
+    const double per_mass = wall.shape_stiffness * area_of_mass(wall);
+    for (const std::int32_t i : body.active.nodes) {
+        const double mass = body.active.mass[i], stiffness = per_mass * mass;
+        const Vec3 dx = motion.x[i] - body.levels.rest[i];
+        // g = -[k' |dx| + k_d' v . dx / |dx|] dx / |dx|  [Choi05, eq. 10]
+        const double square = dx.squaredNorm();
+        const double along = square > 0 ? motion.v[i].dot(dx) / square : 0;
+        force[i] -= stiffness * (1 + wall.shape_damping_time * along) * dx +
+                    wall.drag * mass * motion.v[i];
+    }
+}
+
+void add_tools(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
+    const double per_mass = area_of_mass(body.wall);
+    for (const Tool& tool : body.loads.tools) {
+        const Vec3 at = place_at(tool, motion.time);
+        for (const std::int32_t i : body.active.nodes) {
+            const Depth d = depth_in(tool, at, motion.x[i]);
+            if (d.depth > 0)
+                force[i] += tool.stiffness * d.depth * per_mass * body.active.mass[i] * d.outward;
+        }
+    }
+}
+
+void add_patches(const Body& body, double time, std::vector<Vec3>& force) {
+    const Loads& loads = body.loads;
+    for (std::size_t p = 0; p < loads.patches.size(); ++p) {
+        const double strength = strength_at(loads.patches[p], time);
+        if (strength == 0) continue;
+        for (const auto& [node, share] : body.patches[p])
+            force[node] += strength * share * loads.patches[p].force;
+    }
+}
+
+// Gravity, and pressure times the gradient of the volume.
+void add_fields(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
+    const Loads& loads = body.loads;
+    if (loads.gravity.squaredNorm() > 0)
+        for (const std::int32_t i : body.active.nodes)
+            force[i] += body.active.mass[i] * loads.gravity;
+    if (loads.pressure == 0 && loads.bulk == 0) return;
+    const double sixth = cavity_pressure(body, cavity_volume(body, motion.x)) / 6;
+    for (const auto& [a, b, c] : body.active.drawn) {
+        const Vec3 g =
+            sixth * (motion.x[b] - motion.x[a]).cross(motion.x[c] - motion.x[a]);
+        force[a] += g;
+        force[b] += g;
+        force[c] += g;
+    }
+}
+
+}  // namespace
+
+void share_patches(Body& body) {
+    body.patches.clear();
+    for (const PatchForce& patch : body.loads.patches) {
+        auto& shares = body.patches.emplace_back();
+        double sum = 0;
+        for (const std::int32_t i : body.active.nodes) {
+            const double part =
+                (body.levels.rest[i] - patch.centre).squaredNorm() / (patch.radius * patch.radius);
+            if (!(part < 1)) continue;
+            shares.emplace_back(i, body.active.mass[i] * (1 - part));
+            sum += shares.back().second;
+        }
+        for (auto& [node, share] : shares) share /= sum;
+    }
+}
+
+double cavity_volume(const Body& body, std::span<const Vec3> x) {
+    if (!body.levels.meshes[0].closed()) return 0;
+    double six = 0;
+    for (const auto& [a, b, c] : body.active.drawn) six += x[a].dot(x[b].cross(x[c]));
+    return six / 6;
+}
+
+double cavity_pressure(const Body& body, double volume) {
+    if (body.loads.bulk == 0) return body.loads.pressure;
+    return body.loads.pressure + body.loads.bulk * (1 - volume / body.rest_volume);
+}
+
+void follow(const Active& active, Motion& motion) {
+    for (const Hanging& h : active.hanging) {
+        motion.x[h.node] = 0.5 * (motion.x[h.a] + motion.x[h.b]) + h.offset;
+        motion.v[h.node] = 0.5 * (motion.v[h.a] + motion.v[h.b]);
+    }
+}
+
+void find_forces(const Body& body, const Motion& motion, NodeForces& forces) {
+    for (const std::int32_t i : body.active.nodes) forces.pressing[i].setZero();
+    add_patches(body, motion.time, forces.pressing);
+    add_tools(body, motion, forces.pressing);
+    for (const std::int32_t i : body.active.nodes) forces.external[i] = forces.pressing[i];
+    add_fields(body, motion, forces.external);
+    for (const std::int32_t i : body.active.nodes) forces.total[i] = forces.external[i];
+    add_springs(body.active, motion, forces.total);
+    add_shape(body, motion, forces.total);
+    for (std::size_t k = body.active.hanging.size(); k-- > 0;) {
+        const Hanging& h = body.active.hanging[k];
+        forces.total[h.a] += 0.5 * forces.total[h.node];
+        forces.total[h.b] += 0.5 * forces.total[h.node];
+    }
+}
+
+Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion) {
+    const Vec3 at = place_at(tool, motion.time);
+    const double per_mass = tool.stiffness * area_of_mass(body.wall);
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t i : body.active.nodes) {
+        const Depth d = depth_in(tool, at, motion.x[i]);
+        if (d.depth > 0) sum -= per_mass * body.active.mass[i] * d.depth * d.outward;
+    }
+    return sum;
+}
+
+double energy(const Body& body, const Motion& motion) {
+    double sum = 0;
+    const double per_mass = body.wall.shape_stiffness * area_of_mass(body.wall);
+    for (const std::int32_t i : body.active.nodes)
+        sum += 0.5 * body.active.inertia[i] * motion.v[i].squaredNorm() +
+               0.5 * per_mass * body.active.mass[i] *
+                   (motion.x[i] - body.levels.rest[i]).squaredNorm();
+    for (const Spring& s : body.active.springs) {
+        const double stretch = (motion.x[s.a] - motion.x[s.b]).norm() - s.rest;
+        sum += 0.5 * s.stiffness * stretch * stretch;
+    }
+    return sum;
+}
+
+double stable_step(const Body& body) {
+    constexpr double kReach = 2.5;
+    const Wall& wall = body.wall;
+    const Active& active = body.active;
+    double contact = 0, filling = 0;
+    for (const Tool& tool : body.loads.tools) contact += tool.stiffness;
+    for (const std::int32_t i : active.nodes) filling += active.mass[i];
+    filling *= area_of_mass(wall) * area_of_mass(wall);
+    filling *= body.rest_volume > 0 ? body.loads.bulk / body.rest_volume : 0;
+    std::vector<double> stiffness(active.mass.size(), 0), damping(active.mass.size(), 0);
+    const double per_mass = area_of_mass(wall);
+    for (const std::int32_t i : active.nodes) {
+        const double mass = active.mass[i];
+        stiffness[i] = (wall.shape_stiffness + contact) * per_mass * mass;
+        damping[i] = wall.shape_stiffness * wall.shape_damping_time * per_mass * mass +
+                     wall.drag * mass;
+    }
+    for (const Spring& s : active.springs)
+        for (const std::int32_t i : {s.a, s.b}) {
+            stiffness[i] += 2 * s.stiffness;
+            damping[i] += 2 * s.damping;
+        }
+    for (std::size_t k = active.hanging.size(); k-- > 0;)
+        for (const std::int32_t i : {active.hanging[k].a, active.hanging[k].b}) {
+            stiffness[i] += stiffness[active.hanging[k].node] / 2;
+            damping[i] += damping[active.hanging[k].node] / 2;
+        }
+    double rate = 0;
+    for (const std::int32_t i : active.nodes) {
+        const double mass = active.inertia[i];
+        if (!(mass > 0)) continue;
+        rate = std::max({rate, std::sqrt(stiffness[i] / mass + filling), damping[i] / mass});
+    }
+    return kReach / rate;
+}
+
+}  // namespace myotet::membrane

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Membrane/Active.h"
+#include "Membrane/Loads.h"
+
+namespace myotet::membrane {
+
+/// Motion of all vertices of the finest level; those not in use are stale.
+struct Motion {
+    double time = 0;         ///< s
+    std::vector<Vec3> x, v;  ///< mm, mm/s
+};
+
+/// What forces need to know of an organ.
+struct Body {
+    const Levels& levels;
+    const Wall& wall;
+    const Loads& loads;
+    const Active& active;
+    double rest_volume = 0;  ///< mm^3; of a closed surface
+    /// A patch each: nodes and their shares of its force.
+    std::vector<std::vector<std::pair<std::int32_t, double>>> patches;
+};
+
+/// Shares of the patches' forces among the nodes in use.
+void share_patches(Body& body);
+
+/// Volume enclosed by the drawn triangles, mm^3; 0 for an open surface.
+[[nodiscard]] double cavity_volume(const Body& body, std::span<const Vec3> x);
+
+/// MPa; from the volume where the filling is sealed.
+[[nodiscard]] double cavity_pressure(const Body& body, double volume);
+
+/// Places and velocities of hanging nodes from their ends'.
+void follow(const Active& active, Motion& motion);
+
+/// Forces on all vertices, |V| of the finest level, N.
+struct NodeForces {
+    std::vector<Vec3> total;     ///< those of hanging nodes given to their ends
+    std::vector<Vec3> external;  ///< of all loads
+    std::vector<Vec3> pressing;  ///< of patches and tools
+};
+
+/// Springs [Choi05, eq. 2], shape-preserving springs [Choi05, eq. 10], drag and
+/// loads. A shape-preserving spring's constant is the wall's per area times the
+/// node's share of the area, its mass over thickness and density.
+/// Cost: O(nodes and springs in use).
+void find_forces(const Body& body, const Motion& motion, NodeForces& forces);
+
+/// What the wall does to a tool, N.
+[[nodiscard]] Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion);
+
+/// Kinetic energy, and what springs hold, N mm.
+[[nodiscard]] double energy(const Body& body, const Motion& motion);
+
+/// Largest step (s) at which fourth-order Runge-Kutta is stable: its region holds
+/// the half disc |z| <= 2.5 left of zero, and all |z| are at most the larger of
+/// sqrt(K / m) step and C / m step with K, C the nodes' sums of stiffness and of
+/// damping (Gershgorin).
+[[nodiscard]] double stable_step(const Body& body);
+
+}  // namespace myotet::membrane

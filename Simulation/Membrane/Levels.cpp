@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Membrane/Levels.h"
+
+#include <cmath>
+#include <string>
+
+#include "Core/Errors.h"
+#include "Surface/Crossings.h"
+
+namespace myotet::membrane {
+
+namespace {
+
+void check_places(const TriMesh& surface) {
+    for (std::size_t v = 0; v < surface.points.size(); ++v)
+        if (!surface.points[v].allFinite())
+            throw InputError("point " + std::to_string(v) +
+                             " of the surface has a place that is not finite; mend it");
+    for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+        const auto& [a, b, c] = surface.triangles[f];
+        const Vec3& p = surface.points[a];
+        if (!((surface.points[b] - p).cross(surface.points[c] - p).norm() > 0))
+            throw InputError("triangle " + std::to_string(f) +
+                             " of the surface has no area, but every one must; remove it");
+    }
+    const auto pairs = surface::crossings(surface.points, surface.triangles);
+    if (!pairs.empty())
+        throw InputError("triangles " + std::to_string(pairs[0][0]) + " and " +
+                         std::to_string(pairs[0][1]) +
+                         " of the surface cross, but none may; mend the surface");
+}
+
+void check_count(std::size_t triangles, int count) {
+    constexpr double kMost = 1073741824.0;  // 2^30: half-edges fit 32 bits
+    if (count < 0 || !(std::ldexp(static_cast<double>(triangles), 2 * count) <= kMost))
+        throw InputError("levels is " + std::to_string(count) + ", but must be 0 or more with " +
+                         std::to_string(triangles) +
+                         " triangles times 4 to its power at most 2^30");
+}
+
+}  // namespace
+
+TriMesh Levels::surface(int level) const {
+    const HalfEdges& mesh = meshes[level];
+    return {{rest.begin(), rest.begin() + mesh.vertex_count}, mesh.triangles};
+}
+
+Levels make_levels(const TriMesh& surface, int count) {
+    check_count(surface.triangles.size(), count);
+    Levels levels;
+    levels.meshes.push_back(
+        make_half_edges(surface.triangles, static_cast<std::int32_t>(surface.points.size())));
+    check_places(surface);
+    levels.rest = surface.points;
+    for (int level = 0; level < count; ++level) {
+        const HalfEdges& mesh = levels.meshes.back();
+        for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+            const std::int32_t h = mesh.edges[e];
+            levels.ends.push_back({mesh.from(h), mesh.to(h)});
+            levels.stencils.push_back(midpoint_stencil(mesh, static_cast<std::int32_t>(e)));
+            levels.rest.push_back(levels.stencils.back().apply(levels.rest));
+        }
+        levels.meshes.push_back(split_in_four(mesh));
+    }
+    return levels;
+}
+
+}  // namespace myotet::membrane
