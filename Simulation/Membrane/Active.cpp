@@ -100,10 +100,9 @@ private:
         auto& drawn = active_.drawn;
         if (count == 0) drawn.push_back(t);
         if (count == 3) {
-            drawn.insert(drawn.end(), {{t[0], m[0], m[2]},
-                                       {t[1], m[1], m[0]},
-                                       {t[2], m[2], m[1]},
-                                       {m[0], m[1], m[2]}});
+            drawn.insert(
+                drawn.end(),
+                {{t[0], m[0], m[2]}, {t[1], m[1], m[0]}, {t[2], m[2], m[1]}, {m[0], m[1], m[2]}});
         }
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;

@@ -51,14 +51,14 @@ struct Hanging {
 
 /// What is computed with: the nodes and springs of the triangles in use.
 struct Active {
-    std::vector<std::int32_t> nodes;    ///< ascending
-    std::vector<Hanging> hanging;       ///< from coarse to fine
+    std::vector<std::int32_t> nodes;  ///< ascending
+    std::vector<Hanging> hanging;     ///< from coarse to fine
     std::vector<Spring> springs;
-    std::vector<Triangle> drawn;        ///< without cracks
-    std::vector<double> mass;           ///< |V| of the finest level, t; 0: not in use
-    std::vector<double> inertia;        ///< the same with hanging nodes' given to their ends
+    std::vector<Triangle> drawn;          ///< without cracks
+    std::vector<double> mass;             ///< |V| of the finest level, t; 0: not in use
+    std::vector<double> inertia;          ///< the same with hanging nodes' given to their ends
     std::array<std::int32_t, 4> types{};  ///< triangles by number of hanging nodes, 0 to 3
-    int finest = 0;                     ///< level of the finest triangle in use
+    int finest = 0;                       ///< level of the finest triangle in use
 };
 
 /// Masses are mixed by the levels of a node's edges [Choi05, eq. 7]; those of

@@ -113,8 +113,8 @@ bool adapt(const Criteria& criteria, const Levels& levels, const Watch& watch, d
     for (int level = levels.finest() - 1; level >= 0; --level) {
         const auto wanted =
             marks.near(level, criteria.rings, [&](auto v) { return watch.hot[v] != 0; });
-        const auto kept = marks.near(
-            level, criteria.rings, [&](auto v) { return watch.calm_from[v] > time; });
+        const auto kept =
+            marks.near(level, criteria.rings, [&](auto v) { return watch.calm_from[v] > time; });
         for (std::int32_t f = 0; f < static_cast<std::int32_t>(wanted.size()); ++f) {
             if (!before.exists(level, f) || !selection.exists(level, f)) continue;
             if (wanted[f] && !selection.is_refined(level, f)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Membrane/Forces.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -11,32 +12,39 @@ namespace {
 // Area of the wall that a tonne of it has, mm^2/t.
 double area_of_mass(const Wall& wall) { return 1 / (wall.thickness * wall.density); }
 
-void add_springs(const Active& active, const Motion& motion, std::vector<Vec3>& force) {
+// Returns what they hold, N mm; so does add_shape.
+double add_springs(const Active& active, const Motion& motion, std::vector<Vec3>& force) {
+    double held = 0;
     for (const Spring& s : active.springs) {
         const Vec3 dx = motion.x[s.a] - motion.x[s.b];
         const double length = dx.norm();
         if (!(length > 0)) continue;
         // g = -[k_s (|dx| - r) + k_d dv . dx / |dx|] dx / |dx|  [Choi05, eq. 2]
-        const double pull = s.stiffness * (length - s.rest) +
-                            s.damping * (motion.v[s.a] - motion.v[s.b]).dot(dx) / length;
+        const double tension = s.stiffness * (length - s.rest);
+        const double pull = tension + s.damping * (motion.v[s.a] - motion.v[s.b]).dot(dx) / length;
         const Vec3 g = (-pull / length) * dx;
         force[s.a] += g;
         force[s.b] -= g;
+        held += tension * (length - s.rest);
     }
+    return held / 2;
 }
 
-void add_shape(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
+double add_shape(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
     const Wall& wall = body.wall;
     const double per_mass = wall.shape_stiffness * area_of_mass(wall);
+    double held = 0;
     for (const std::int32_t i : body.active.nodes) {
         const double mass = body.active.mass[i], stiffness = per_mass * mass;
         const Vec3 dx = motion.x[i] - body.levels.rest[i];
         // g = -[k' |dx| + k_d' v . dx / |dx|] dx / |dx|  [Choi05, eq. 10]
         const double square = dx.squaredNorm();
         const double along = square > 0 ? motion.v[i].dot(dx) / square : 0;
-        force[i] -= stiffness * (1 + wall.shape_damping_time * along) * dx +
-                    wall.drag * mass * motion.v[i];
+        force[i] -=
+            stiffness * (1 + wall.shape_damping_time * along) * dx + wall.drag * mass * motion.v[i];
+        held += stiffness * square;
     }
+    return held / 2;
 }
 
 void add_tools(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
@@ -70,15 +78,12 @@ void add_fields(const Body& body, const Motion& motion, std::vector<Vec3>& force
     if (loads.pressure == 0 && loads.bulk == 0) return;
     const double sixth = cavity_pressure(body, cavity_volume(body, motion.x)) / 6;
     for (const auto& [a, b, c] : body.active.drawn) {
-        const Vec3 g =
-            sixth * (motion.x[b] - motion.x[a]).cross(motion.x[c] - motion.x[a]);
+        const Vec3 g = sixth * (motion.x[b] - motion.x[a]).cross(motion.x[c] - motion.x[a]);
         force[a] += g;
         force[b] += g;
         force[c] += g;
     }
 }
-
-}  // namespace
 
 void share_patches(Body& body) {
     body.patches.clear();
@@ -96,11 +101,24 @@ void share_patches(Body& body) {
     }
 }
 
+double drawn_volume(const Active& active, std::span<const Vec3> x) {
+    double six = 0;
+    for (const auto& [a, b, c] : active.drawn) six += x[a].dot(x[b].cross(x[c]));
+    return six / 6;
+}
+
+}  // namespace
+
+void prepare(Body& body) {
+    share_patches(body);
+    if (!body.levels.meshes[0].closed()) return;
+    if (body.rest_volume == 0) body.rest_volume = volume(body.levels.surface(body.levels.finest()));
+    body.drawn_rest_volume = drawn_volume(body.active, body.levels.rest);
+}
+
 double cavity_volume(const Body& body, std::span<const Vec3> x) {
     if (!body.levels.meshes[0].closed()) return 0;
-    double six = 0;
-    for (const auto& [a, b, c] : body.active.drawn) six += x[a].dot(x[b].cross(x[c]));
-    return six / 6;
+    return body.rest_volume + drawn_volume(body.active, x) - body.drawn_rest_volume;
 }
 
 double cavity_pressure(const Body& body, double volume) {
@@ -115,20 +133,21 @@ void follow(const Active& active, Motion& motion) {
     }
 }
 
-void find_forces(const Body& body, const Motion& motion, NodeForces& forces) {
+double find_forces(const Body& body, const Motion& motion, NodeForces& forces) {
     for (const std::int32_t i : body.active.nodes) forces.pressing[i].setZero();
     add_patches(body, motion.time, forces.pressing);
     add_tools(body, motion, forces.pressing);
     for (const std::int32_t i : body.active.nodes) forces.external[i] = forces.pressing[i];
     add_fields(body, motion, forces.external);
     for (const std::int32_t i : body.active.nodes) forces.total[i] = forces.external[i];
-    add_springs(body.active, motion, forces.total);
-    add_shape(body, motion, forces.total);
+    const double held =
+        add_springs(body.active, motion, forces.total) + add_shape(body, motion, forces.total);
     for (std::size_t k = body.active.hanging.size(); k-- > 0;) {
         const Hanging& h = body.active.hanging[k];
         forces.total[h.a] += 0.5 * forces.total[h.node];
         forces.total[h.b] += 0.5 * forces.total[h.node];
     }
+    return held;
 }
 
 Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion) {
@@ -142,17 +161,10 @@ Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion) {
     return sum;
 }
 
-double energy(const Body& body, const Motion& motion) {
+double kinetic_energy(const Body& body, const Motion& motion) {
     double sum = 0;
-    const double per_mass = body.wall.shape_stiffness * area_of_mass(body.wall);
     for (const std::int32_t i : body.active.nodes)
-        sum += 0.5 * body.active.inertia[i] * motion.v[i].squaredNorm() +
-               0.5 * per_mass * body.active.mass[i] *
-                   (motion.x[i] - body.levels.rest[i]).squaredNorm();
-    for (const Spring& s : body.active.springs) {
-        const double stretch = (motion.x[s.a] - motion.x[s.b]).norm() - s.rest;
-        sum += 0.5 * s.stiffness * stretch * stretch;
-    }
+        sum += 0.5 * body.active.inertia[i] * motion.v[i].squaredNorm();
     return sum;
 }
 
@@ -160,35 +172,39 @@ double stable_step(const Body& body) {
     constexpr double kReach = 2.5;
     const Wall& wall = body.wall;
     const Active& active = body.active;
-    double contact = 0, filling = 0;
-    for (const Tool& tool : body.loads.tools) contact += tool.stiffness;
-    for (const std::int32_t i : active.nodes) filling += active.mass[i];
-    filling *= area_of_mass(wall) * area_of_mass(wall);
-    filling *= body.rest_volume > 0 ? body.loads.bulk / body.rest_volume : 0;
-    std::vector<double> stiffness(active.mass.size(), 0), damping(active.mass.size(), 0);
     const double per_mass = area_of_mass(wall);
+    double same = wall.shape_stiffness, mass = 0;  // what all nodes have, by area
+    for (const Tool& tool : body.loads.tools) same += tool.stiffness;
+    for (const std::int32_t i : active.nodes) mass += active.mass[i];
+    const double filling =
+        body.rest_volume > 0 ? body.loads.bulk * mass * per_mass / body.rest_volume : 0;
+    std::vector<Mat3> stiffness(active.mass.size(), Mat3::Zero()), damping = stiffness;
     for (const std::int32_t i : active.nodes) {
-        const double mass = active.mass[i];
-        stiffness[i] = (wall.shape_stiffness + contact) * per_mass * mass;
-        damping[i] = wall.shape_stiffness * wall.shape_damping_time * per_mass * mass +
-                     wall.drag * mass;
+        const double area = per_mass * active.mass[i];
+        stiffness[i].diagonal().setConstant((same + filling) * area);
+        damping[i].diagonal().setConstant(wall.shape_stiffness * wall.shape_damping_time * area +
+                                          wall.drag * active.mass[i]);
     }
-    for (const Spring& s : active.springs)
+    for (const Spring& s : active.springs) {
+        const Vec3 n = (body.levels.rest[s.a] - body.levels.rest[s.b]).normalized();
         for (const std::int32_t i : {s.a, s.b}) {
-            stiffness[i] += 2 * s.stiffness;
-            damping[i] += 2 * s.damping;
+            stiffness[i] += 2 * s.stiffness * n * n.transpose();
+            damping[i] += 2 * s.damping * n * n.transpose();
         }
+    }
     for (std::size_t k = active.hanging.size(); k-- > 0;)
         for (const std::int32_t i : {active.hanging[k].a, active.hanging[k].b}) {
             stiffness[i] += stiffness[active.hanging[k].node] / 2;
             damping[i] += damping[active.hanging[k].node] / 2;
         }
+    const auto largest = [](const Mat3& m) {
+        return Eigen::SelfAdjointEigenSolver<Mat3>(m, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    };
     double rate = 0;
-    for (const std::int32_t i : active.nodes) {
-        const double mass = active.inertia[i];
-        if (!(mass > 0)) continue;
-        rate = std::max({rate, std::sqrt(stiffness[i] / mass + filling), damping[i] / mass});
-    }
+    for (const std::int32_t i : active.nodes)
+        if (active.inertia[i] > 0)
+            rate = std::max({rate, std::sqrt(largest(stiffness[i]) / active.inertia[i]),
+                             largest(damping[i]) / active.inertia[i]});
     return kReach / rate;
 }
 

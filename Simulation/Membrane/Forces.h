@@ -18,15 +18,17 @@ struct Body {
     const Wall& wall;
     const Loads& loads;
     const Active& active;
-    double rest_volume = 0;  ///< mm^3; of a closed surface
+    /// Of a closed surface at rest, mm^3: of the finest level, and as drawn.
+    double rest_volume = 0, drawn_rest_volume = 0;
     /// A patch each: nodes and their shares of its force.
-    std::vector<std::vector<std::pair<std::int32_t, double>>> patches;
+    std::vector<std::vector<std::pair<std::int32_t, double>>> patches = {};
 };
 
-/// Shares of the patches' forces among the nodes in use.
-void share_patches(Body& body);
+/// Finds the volumes and the patches' shares; whenever the nodes in use change.
+void prepare(Body& body);
 
-/// Volume enclosed by the drawn triangles, mm^3; 0 for an open surface.
+/// Volume of the finest surface at rest and what the drawn triangles have gained
+/// since, mm^3: a change of levels alone changes nothing. 0 for an open surface.
 [[nodiscard]] double cavity_volume(const Body& body, std::span<const Vec3> x);
 
 /// MPa; from the volume where the filling is sealed.
@@ -45,19 +47,21 @@ struct NodeForces {
 /// Springs [Choi05, eq. 2], shape-preserving springs [Choi05, eq. 10], drag and
 /// loads. A shape-preserving spring's constant is the wall's per area times the
 /// node's share of the area, its mass over thickness and density.
+/// Returns what the springs of both kinds hold, N mm.
 /// Cost: O(nodes and springs in use).
-void find_forces(const Body& body, const Motion& motion, NodeForces& forces);
+double find_forces(const Body& body, const Motion& motion, NodeForces& forces);
 
 /// What the wall does to a tool, N.
 [[nodiscard]] Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion);
 
-/// Kinetic energy, and what springs hold, N mm.
-[[nodiscard]] double energy(const Body& body, const Motion& motion);
+/// Of the nodes in use, N mm.
+[[nodiscard]] double kinetic_energy(const Body& body, const Motion& motion);
 
 /// Largest step (s) at which fourth-order Runge-Kutta is stable: its region holds
-/// the half disc |z| <= 2.5 left of zero, and all |z| are at most the larger of
-/// sqrt(K / m) step and C / m step with K, C the nodes' sums of stiffness and of
-/// damping (Gershgorin).
+/// the half disc |z| <= 2.5 left of zero. With n the directions of a node's springs
+/// at rest, k (n . (u - w))^2 <= 2 k ((n . u)^2 + (n . w)^2), so no frequency is above
+/// the largest of sqrt(|sum 2 k n n^T| / m), and no rate of damping above that of
+/// |sum 2 c n n^T| / m; other loads' stiffness comes in by area.
 [[nodiscard]] double stable_step(const Body& body);
 
 }  // namespace myotet::membrane

@@ -14,8 +14,8 @@ namespace {
 void check_triangles(const HalfEdges& mesh) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle& t = mesh.triangles[f];
-        const bool inside = std::all_of(
-            t.begin(), t.end(), [&](auto v) { return v >= 0 && v < mesh.vertex_count; });
+        const bool inside = std::all_of(t.begin(), t.end(),
+                                        [&](auto v) { return v >= 0 && v < mesh.vertex_count; });
         if (!inside || t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
             throw InputError("triangle " + std::to_string(f) + " is (" + std::to_string(t[0]) +
                              ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Membrane/Levels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,6 +11,16 @@
 namespace myotet::membrane {
 
 namespace {
+
+// Whether b lies in the plane of a but for rounding: there "through" has no meaning.
+bool in_one_plane(const TriMesh& surface, const Triangle& a, const Triangle& b) {
+    constexpr double kRounding = 1e-9;
+    const Vec3& p = surface.points[a[0]];
+    const Vec3 u = surface.points[a[1]] - p, n = u.cross(surface.points[a[2]] - p).normalized();
+    return std::all_of(b.begin(), b.end(), [&](auto v) {
+        return std::abs(n.dot(surface.points[v] - p)) < kRounding * u.norm();
+    });
+}
 
 void check_places(const TriMesh& surface) {
     for (std::size_t v = 0; v < surface.points.size(); ++v)
@@ -23,11 +34,10 @@ void check_places(const TriMesh& surface) {
             throw InputError("triangle " + std::to_string(f) +
                              " of the surface has no area, but every one must; remove it");
     }
-    const auto pairs = surface::crossings(surface.points, surface.triangles);
-    if (!pairs.empty())
-        throw InputError("triangles " + std::to_string(pairs[0][0]) + " and " +
-                         std::to_string(pairs[0][1]) +
-                         " of the surface cross, but none may; mend the surface");
+    for (const auto& [f, g] : surface::crossings(surface.points, surface.triangles))
+        if (!in_one_plane(surface, surface.triangles[f], surface.triangles[g]))
+            throw InputError("triangles " + std::to_string(f) + " and " + std::to_string(g) +
+                             " of the surface cross, but none may; mend the surface");
 }
 
 void check_count(std::size_t triangles, int count) {

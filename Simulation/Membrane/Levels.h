@@ -9,9 +9,9 @@ namespace myotet::membrane {
 /// adaptation]. A vertex keeps its number from level to level: those of a level
 /// come first in the next one, then the midpoints of its edges.
 struct Levels {
-    std::vector<HalfEdges> meshes;                ///< from the given surface to the finest
-    std::vector<Vec3> rest;                       ///< of the finest, mm
-    std::vector<Stencil> stencils;                ///< of vertices after the given surface's
+    std::vector<HalfEdges> meshes;                  ///< from the given surface to the finest
+    std::vector<Vec3> rest;                         ///< of the finest, mm
+    std::vector<Stencil> stencils;                  ///< of vertices after the given surface's
     std::vector<std::array<std::int32_t, 2>> ends;  ///< of the edges these lie on
 
     [[nodiscard]] int finest() const { return static_cast<int>(meshes.size()) - 1; }

@@ -34,9 +34,10 @@ void check_patch(const PatchForce& patch, const Levels& levels) {
             "must be a time in s not before 'from'");
     require(std::isfinite(patch.ramp) && patch.ramp >= 0, "patch.ramp", patch.ramp,
             "must be a time in s, 0 or more");
-    const bool found = std::any_of(
-        levels.rest.begin(), levels.rest.begin() + levels.given(),
-        [&](const Vec3& x) { return (x - patch.centre).squaredNorm() < patch.radius * patch.radius; });
+    const bool found =
+        std::any_of(levels.rest.begin(), levels.rest.begin() + levels.given(), [&](const Vec3& x) {
+            return (x - patch.centre).squaredNorm() < patch.radius * patch.radius;
+        });
     require(found, "patch.radius", patch.radius,
             "must reach at least one point of the surface; enlarge it or move the centre");
 }
@@ -53,8 +54,7 @@ void check_tool(const Tool& tool, const Levels& levels, std::size_t number) {
     for (std::size_t i = 0; i < tool.places.size(); ++i)
         require(tool.places[i].position.allFinite() && std::isfinite(tool.places[i].time) &&
                     (i == 0 || tool.places[i].time > tool.places[i - 1].time),
-                "tool.places", tool.places[i].time,
-                "must be finite and at ascending times in s");
+                "tool.places", tool.places[i].time, "must be finite and at ascending times in s");
     const Vec3 at = place_at(tool, 0);
     const std::string who = "tool " + std::to_string(number);
     if (sphere && levels.meshes[0].closed() && std::abs(winding(levels.surface(0), at)) > 0.5)
@@ -84,8 +84,7 @@ Vec3 place_at(const Tool& tool, double time) {
     if (time <= places.front().time) return places.front().position;
     for (std::size_t i = 1; i < places.size(); ++i) {
         if (time > places[i].time) continue;
-        const double part =
-            (time - places[i - 1].time) / (places[i].time - places[i - 1].time);
+        const double part = (time - places[i - 1].time) / (places[i].time - places[i - 1].time);
         return (1 - part) * places[i - 1].position + part * places[i].position;
     }
     return places.back().position;

@@ -27,7 +27,7 @@ struct ToolPlace {
 /// A rigid tool that presses by penalty contact, without friction.
 struct Tool {
     enum class Shape { sphere, plane } shape = Shape::sphere;
-    double radius = 0;           ///< of a sphere, mm
+    double radius = 0;            ///< of a sphere, mm
     Vec3 normal = Vec3::UnitZ();  ///< of a plane, out of it towards the organ
     /// In ascending time; in between along a straight line, before and after at rest.
     std::vector<ToolPlace> places;

@@ -26,8 +26,7 @@ void Stepper::prepare(const Body& body, std::span<const char> fixed, const Motio
     v_sum_.resize(motion.x.size());
     a_sum_.resize(motion.x.size());
     stage_ = motion;
-    find_forces(body, motion, forces_);
-    energy_ = energy(body, motion);
+    energy_ = find_forces(body, motion, forces_) + kinetic_energy(body, motion);
     // Below a strain of a ten-thousandth all over energy is rounding and the
     // trapezoids of work.
     double mass = 0;
@@ -51,8 +50,8 @@ void Stepper::advance_stage(const Body& body, const NodeForces& forces, double p
 double Stepper::work(const Body& body, const Motion& motion) const {
     double sum = 0;
     for (const std::int32_t i : body.active.nodes)
-        sum += 0.5 * (forces_.external[i] + stage_forces_.external[i])
-                         .dot(stage_.x[i] - motion.x[i]);
+        sum +=
+            0.5 * (forces_.external[i] + stage_forces_.external[i]).dot(stage_.x[i] - motion.x[i]);
     return sum;
 }
 
@@ -79,9 +78,9 @@ bool Stepper::step(const Body& body, double step, Motion& motion) {
         stage_.v[i] = motion.v[i] + step / 6 / body.active.inertia[i] * a_sum_[i];
     }
     follow(body.active, stage_);
-    find_forces(body, stage_, stage_forces_);
     constexpr double kGain = 0.01;
-    const double now = energy(body, stage_), gain = now - energy_ - work(body, motion);
+    const double now = find_forces(body, stage_, stage_forces_) + kinetic_energy(body, stage_);
+    const double gain = now - energy_ - work(body, motion);
     if (!(gain <= kGain * std::max(most_, energy_))) return false;
     energy_ = now;
     most_ = std::max(most_, now);

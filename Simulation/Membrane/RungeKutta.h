@@ -16,6 +16,8 @@ public:
     /// stays as it was and the answer is false. Cost: four force evaluations.
     [[nodiscard]] bool step(const Body& body, double step, Motion& motion);
 
+    /// Kinetic, and what springs hold, at the present motion, N mm.
+    [[nodiscard]] double energy() const { return energy_; }
     /// At the present motion.
     [[nodiscard]] const NodeForces& forces() const { return forces_; }
 

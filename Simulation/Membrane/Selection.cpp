@@ -12,7 +12,8 @@ bool finer_beside(const Levels& levels, const Selection& selection, int level,
     if (level + 1 >= levels.finest()) return false;
     const HalfEdges& fine = levels.meshes[level + 1];
     for (std::int32_t i = 0; i < 3; ++i)
-        for (const std::int32_t h : {3 * (4 * triangle + i), 3 * (4 * triangle + (i + 1) % 3) + 2}) {
+        for (const std::int32_t h :
+             {3 * (4 * triangle + i), 3 * (4 * triangle + (i + 1) % 3) + 2}) {
             const std::int32_t beyond = fine.twin[h];
             if (beyond >= 0 && selection.exists(level + 1, beyond / 3) &&
                 selection.is_refined(level + 1, beyond / 3))

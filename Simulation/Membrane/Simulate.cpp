@@ -25,7 +25,6 @@ public:
         const bool refined = options.detail == Detail::refined;
         selection_ = wholly_refined(levels_, refined ? levels_.finest() : 0);
         active_ = make_active(levels_, selection_, properties_);
-        body_.rest_volume = cavity_volume(body_, levels_.rest);
         switch_to(levels_, active_, active_, motion_);
         prepare();
         first_step_ = std::ldexp(step_, active_.finest);
@@ -62,7 +61,7 @@ private:
     std::vector<char> fixed_;
     Selection selection_{levels_};
     Active active_;
-    Body body_{levels_, options_.wall, loads_, active_, 0, {}};
+    Body body_{levels_, options_.wall, loads_, active_};
     Motion motion_;
     Watch watch_;
     Stepper stepper_;
@@ -71,17 +70,17 @@ private:
 
     void check_stiffness() {
         const bool coarse = options_.detail == Detail::coarse;
-        const Active finest =
-            make_active(levels_, wholly_refined(levels_, coarse ? 0 : levels_.finest()), properties_);
-        Body body{levels_, options_.wall, loads_, finest, 0, {}};
-        body.rest_volume = cavity_volume(body, levels_.rest);
+        const Active finest = make_active(
+            levels_, wholly_refined(levels_, coarse ? 0 : levels_.finest()), properties_);
+        Body body{levels_, options_.wall, loads_, finest};
+        membrane::prepare(body);
         const double step = options_.safety * stable_step(body);
         require(step >= options_.smallest_step, "the stable step in s", step,
                 "must be at least smallest_step; make the wall softer, heavier or less damped");
     }
 
     void prepare() {
-        share_patches(body_);
+        membrane::prepare(body_);
         // [Choi05, eq. 9], from the step at the given surface's level.
         step_ = options_.safety * stable_step(body_);
         if (first_step_ > 0) step_ = std::min(step_, std::ldexp(first_step_, -active_.finest));
@@ -93,12 +92,12 @@ private:
     void look_and_adapt() {
         look(options_.criteria, body_, motion_, stepper_.forces().pressing, watch_);
         if (!adapt(options_.criteria, levels_, watch_, motion_.time, selection_)) return;
-        const double before = energy(body_, motion_);
+        const double before = stepper_.energy();
         Active after = make_active(levels_, selection_, properties_);
         switch_to(levels_, active_, after, motion_);
         active_ = std::move(after);
         prepare();
-        result_.switched_energy += std::abs(energy(body_, motion_) - before);
+        result_.switched_energy += std::abs(stepper_.energy() - before);
         ++result_.switches;
     }
 
@@ -135,7 +134,7 @@ private:
         m.springs = active_.springs.size();
         m.volume = cavity_volume(body_, motion_.x);
         m.pressure = cavity_pressure(body_, m.volume);
-        m.energy = energy(body_, motion_);
+        m.energy = stepper_.energy();
         for (const std::int32_t i : active_.nodes) {
             m.mass += active_.mass[i];
             m.largest_displacement =
@@ -146,7 +145,8 @@ private:
             for (const auto& [i, share] : shares) mean += share * (motion_.x[i] - levels_.rest[i]);
             m.patch_displacement.push_back(mean.norm());
         }
-        for (const Tool& tool : loads_.tools) m.tool_force.push_back(force_on(tool, body_, motion_));
+        for (const Tool& tool : loads_.tools)
+            m.tool_force.push_back(force_on(tool, body_, motion_));
         if (observer) observer(m, motion_.x, active_.drawn);
         result_.history.push_back(std::move(m));
     }

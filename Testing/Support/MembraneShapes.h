@@ -36,7 +36,8 @@ inline TriMesh hull_of_sphere(std::vector<Vec3> points) {
 inline TriMesh even_sphere(double radius, int count) {
     std::vector<Vec3> points(count);
     for (int i = 0; i < count; ++i) {
-        const double z = 1 - 2.0 * i / (count - 1), turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+        const double z = 1 - 2.0 * i / (count - 1),
+                     turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
         const double around = std::sqrt(std::max(0.0, 1 - z * z));
         points[i] = {around * std::cos(turn), around * std::sin(turn), z};
     }
@@ -70,8 +71,8 @@ inline TriMesh ico_sphere(double radius, int times) {
     for (int k = 0; k < times; ++k) {
         std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middle;
         const auto mid = [&](std::int32_t a, std::int32_t b) {
-            const auto [at, made] =
-                middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(mesh.points.size()));
+            const auto [at, made] = middle.try_emplace(
+                std::minmax(a, b), static_cast<std::int32_t>(mesh.points.size()));
             if (made) mesh.points.push_back((mesh.points[a] + mesh.points[b]).normalized());
             return at->second;
         };
@@ -96,7 +97,8 @@ inline TriMesh sheet(int columns, int rows, double edge) {
     const auto at = [&](int i, int j) { return j * (columns + 1) + i; };
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
-            const std::int32_t a = at(i, j), b = at(i + 1, j), c = at(i, j + 1), d = at(i + 1, j + 1);
+            const std::int32_t a = at(i, j), b = at(i + 1, j), c = at(i, j + 1),
+                               d = at(i + 1, j + 1);
             if (j % 2 == 0)
                 mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
             else
