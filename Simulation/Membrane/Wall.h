@@ -16,7 +16,7 @@ struct Wall {
     double thickness = 3;        ///< mm
     double young = 0.03;         ///< MPa; soft, as stomach
     double density = 1.05e-9;    ///< t/mm^3; muscle
-    double damping_time = 1e-3;  ///< damping over stiffness of springs, s
+    double damping_time = 1e-4;  ///< damping over stiffness of springs, s
     /// Of shape-preserving springs, per area of the wall, MPa/mm; 0: none.
     double shape_stiffness = 1e-4;
     double shape_damping_time = 1e-2;  ///< their damping over their stiffness, s

@@ -73,6 +73,7 @@ TEST(MembraneFigures, PressedSphere) {
     const TriMesh sphere = even_sphere(50, 114);
     Options options;
     options.duration = 4;
+    options.criteria.rings = 0;
     const Loads loads = press(30, 1, 2);
     const Timed coarse = run(sphere, options, loads, Detail::coarse),
                 refined = run(sphere, options, loads, Detail::refined),
