@@ -137,7 +137,8 @@ TEST(MembraneFigures, WanderingTool) {
     Options options;
     options.levels = 3;
     options.duration = 0.3;
-    options.criteria.speed = 200;
+    options.criteria.speed = 500;
+    options.criteria.rings = 0;
     Loads loads;
     Tool tool;
     tool.radius = 8;
