@@ -197,9 +197,12 @@ void PathFinder::keep_side(int wrap, const Straight& piece, const Vec3& side) {
         passes_.push_back({wrap, points_[piece.place].index, points_[piece.place + 1].index, side});
 }
 
-/// Whether a straight piece beyond those beside its contact runs through an object.
-bool PathFinder::runs_through(int wrap) const {
+/// Notes whether straight pieces other than those beside its contact run through an object
+/// or end inside.
+void PathFinder::look_through(int wrap) {
     const Tool& tool = tools_[wrap];
+    inside_[wrap] = missed_[wrap] = 0;
+    if (!tool.object->active) return;
     WrapMemory before;
     if (tool.surface.is_torus()) before.side = Vec3::UnitZ();
     for (const Straight& piece : straight_pieces()) {
@@ -211,9 +214,10 @@ bool PathFinder::runs_through(int wrap) const {
         const bool beside =
             touched(piece.after - 1, piece.from_point) || touched(piece.after, piece.to_point);
         if (beside && !tool.surface.is_torus()) continue;
-        if (try_wrap(wrap, piece, before).pierced) return true;
+        const Wrap tried = try_wrap(wrap, piece, before);
+        missed_[wrap] |= tried.pierced;
+        inside_[wrap] |= tried.touch == WrapTouch::inside;
     }
-    return false;
 }
 
 /// Brings a wrap into contact where it acts.
@@ -222,7 +226,7 @@ bool PathFinder::add(int wrap) {
     const int touches = count(wrap);
     if (!tool.object->active) return false;
     if (touches >= (tool.surface.is_torus() ? kMostTouches : 1)) {
-        missed_[wrap] = runs_through(wrap);
+        look_through(wrap);
         return false;
     }
     std::optional<Candidate> best;
@@ -269,11 +273,13 @@ bool PathFinder::make_room(int wrap) {
         return c.wrap != wrap &&
                std::min(height(c.memory.contact.first.at), height(c.memory.contact.last.at)) < 0;
     };
-    const auto kept = std::remove_if(contacts_.begin(), contacts_.end(), is_inside);
-    if (kept == contacts_.end()) return false;
-    contacts_.erase(kept, contacts_.end());
+    std::vector<Contact> contacts = contacts_;
+    if (std::erase_if(contacts_, is_inside) == 0) return false;
     made_room_[wrap] = 1;
-    return add(wrap);
+    if (add(wrap)) return true;
+    contacts_ = std::move(contacts);
+    inside_[wrap] = 1;
+    return false;
 }
 
 void PathFinder::find() {
@@ -285,6 +291,8 @@ void PathFinder::find() {
         if (!changed) return;
         tighten();
     }
+    // Some contact is added and lost again and again.
+    for (int wrap = 0; wrap < wraps; ++wrap) look_through(wrap);
 }
 
 void PathFinder::remember(PathMemory& memory) const {

@@ -62,7 +62,7 @@ private:
     [[nodiscard]] bool act(std::size_t contact, double& moved);
     void tighten();
     [[nodiscard]] bool add(int wrap);
-    [[nodiscard]] bool runs_through(int wrap) const;
+    void look_through(int wrap);
     [[nodiscard]] bool make_room(int wrap);
     [[nodiscard]] std::vector<PathMemory::Pass>::iterator pass_of(int wrap, const Straight& piece);
     void keep_side(int wrap, const Straight& piece, const Vec3& side);

@@ -82,20 +82,30 @@ inline std::vector<double> differences(Arm arm, const PathMemory& memory, double
     return rates;
 }
 
-/// No point of the path as drawn lies inside an object that is not left out.
+/// How deep the straight piece between two points runs in an object, negative; in ground.
+inline double depth_of(const Arm& arm, const WrapObject& object, const Vec3& begin,
+                       const Vec3& end) {
+    const WrapSurface surface(object);
+    const Pose pose = arm.bodies[object.body] * object.in_body;
+    double least = surface.height(pose.to_rest(begin));
+    for (int i = 1; i <= 40; ++i)
+        least = std::min(least, surface.height(pose.to_rest(begin + i / 40.0 * (end - begin))));
+    return least;
+}
+
+/// No straight piece of the path enters an object, no curve its own; unless an end is inside.
 inline void expect_outside(const Arm& arm, const Path& path, double depth) {
     if (!path.inside.empty()) return;
-    const std::vector<Vec3> points = drawn(arm.model, path, arm.bodies, 0.5);
-    for (const WrapObject& object : arm.model.wrap_objects) {
-        const WrapSurface surface(object);
-        const Pose pose = arm.bodies[object.body] * object.in_body;
-        for (std::size_t n = 1; n < points.size(); ++n)
-            for (int i = 0; i <= 10; ++i) {
-                // Between points of a curve, a chord would run through the object.
-                if (i > 0 && i < 10 && (points[n] - points[n - 1]).norm() < 0.51) continue;
-                const Vec3 at = points[n - 1] + 0.1 * i * (points[n] - points[n - 1]);
-                ASSERT_GT(surface.height(pose.to_rest(at)), -depth);
-            }
+    for (std::size_t n = 1; n < path.nodes.size(); ++n) {
+        const PathNode &begin = path.nodes[n - 1], &end = path.nodes[n];
+        if (begin.around < 0) {
+            for (const WrapObject& object : arm.model.wrap_objects)
+                ASSERT_GT(depth_of(arm, object, begin.at, end.at), -depth);
+            continue;
+        }
+        const WrapObject& own = arm.model.wrap_objects[begin.around];
+        for (const Vec3& at : drawn(arm.model, {.nodes = {begin, end}}, arm.bodies, 0.5))
+            ASSERT_GT(depth_of(arm, own, at, at), -depth);
     }
 }
 
