@@ -12,8 +12,7 @@ namespace myotet::report {
 Histogram::Histogram(const Range& shown, int parts) : range(shown) {
     validate(range, "a histogram's range");
     if (parts < 1)
-        throw InputError("a histogram has " + std::to_string(parts) +
-                         " parts; give at least one");
+        throw InputError("a histogram has " + std::to_string(parts) + " parts; give at least one");
     counts.assign(static_cast<std::size_t>(parts), 0);
 }
 

@@ -16,11 +16,11 @@ constexpr std::string_view kUnknown = "\xEF\xBF\xBD";  // U+FFFD
 std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char first = byte(0);
-    const std::size_t length = first < 0x80                      ? 1
-                               : first >= 0xC2 && first < 0xE0   ? 2
-                               : first >= 0xE0 && first < 0xF0   ? 3
+    const std::size_t length = first < 0x80                     ? 1
+                               : first >= 0xC2 && first < 0xE0  ? 2
+                               : first >= 0xE0 && first < 0xF0  ? 3
                                : first >= 0xF0 && first <= 0xF4 ? 4
-                                                                 : 0;
+                                                                : 0;
     if (length == 0 || length > text.size()) return 0;
     for (std::size_t i = 1; i < length; ++i)
         if ((byte(i) & 0xC0) != 0x80) return 0;
@@ -133,10 +133,10 @@ std::string list_html(const std::vector<std::string>& sentences) {
 }
 
 std::string figure(const Picture& picture, std::string_view alternative, std::string_view caption) {
-    return "<figure><img src=\"" + data_uri(picture) +
-           "\" width=\"" + std::to_string(picture.width) + "\" height=\"" +
-           std::to_string(picture.height) + "\" alt=\"" + escaped(alternative) +
-           "\"/><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+    return "<figure><img src=\"" + data_uri(picture) + "\" width=\"" +
+           std::to_string(picture.width) + "\" height=\"" + std::to_string(picture.height) +
+           "\" alt=\"" + escaped(alternative) + "\"/><figcaption>" + escaped(caption) +
+           "</figcaption></figure>\n";
 }
 
 Cell text_cell(std::string_view text) { return {escaped(text), false}; }

@@ -17,8 +17,8 @@ void draw_letter(Picture& picture, char side, const Vec2& place, double size) {
     const std::string_view text(&side, 1);
     draw_lettering(picture, text, place,
                    {.size = size, .weight = kHalo, .align = 0.5, .colour = kWhite});
-    draw_lettering(picture, text, place, {.size = size, .weight = 1.2, .align = 0.5,
-                                          .colour = kGrey});
+    draw_lettering(picture, text, place,
+                   {.size = size, .weight = 1.2, .align = 0.5, .colour = kGrey});
 }
 
 }  // namespace
@@ -37,13 +37,12 @@ Sides sides_of(const Vec3& direction, const Vec3& up) {
 }
 
 void draw_sides(Picture& picture, const Sides& sides) {
-    const double size =
-        std::max(1.0, std::min(picture.width, picture.height) / kSidePerLetterSize);
+    const double size = std::max(1.0, std::min(picture.width, picture.height) / kSidePerLetterSize);
     const double margin = kMargin * size, high = kLetterHeight * size;
     const double middle = 0.5 * picture.width, half = 0.5 * (picture.height + high);
     draw_letter(picture, sides.left, {margin + 0.5 * kLetterWidth * size, half}, size);
-    draw_letter(picture, sides.right,
-                {picture.width - margin - 0.5 * kLetterWidth * size, half}, size);
+    draw_letter(picture, sides.right, {picture.width - margin - 0.5 * kLetterWidth * size, half},
+                size);
     draw_letter(picture, sides.top, {middle, margin + high}, size);
     draw_letter(picture, sides.bottom, {middle, picture.height - margin}, size);
 }

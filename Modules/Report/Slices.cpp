@@ -72,8 +72,8 @@ std::string letters(const SliceView& view) {
            decimal(0.2 * size) + "\" text-anchor=\"middle\">" +
            letter(0.5 * size, 0.5 * h + 0.35 * size, sides.left) +
            letter(w - 0.5 * size, 0.5 * h + 0.35 * size, sides.right) +
-           letter(0.5 * w, 0.85 * size, sides.top) +
-           letter(0.5 * w, h - 0.2 * size, sides.bottom) + "</g>";
+           letter(0.5 * w, 0.85 * size, sides.top) + letter(0.5 * w, h - 0.2 * size, sides.bottom) +
+           "</g>";
 }
 
 }  // namespace
@@ -156,7 +156,8 @@ Picture label_picture(std::span<const LabelVolume> layers, const SliceView& view
                     inside = inside && voxel[c] >= 0 && voxel[c] < volume.size[c];
                 }
                 if (!inside) continue;
-                const std::int32_t value = volume.values[volume.offset(voxel[0], voxel[1], voxel[2])];
+                const std::int32_t value =
+                    volume.values[volume.offset(voxel[0], voxel[1], voxel[2])];
                 if (value != 0) set_pixel(picture, x, y, colour(static_cast<int>(l), value));
             }
     }

@@ -16,7 +16,7 @@ namespace {
 constexpr double kWidth = 560, kHeight = 260;
 constexpr double kLeft = 62, kRight = 10, kTop = 12, kBottom = 44;
 constexpr int kMostXTicks = 8, kMostYTicks = 6;
-constexpr double kRoom = 0.05;     // of a range, at either end
+constexpr double kRoom = 0.05;        // of a range, at either end
 constexpr double kLeastShare = 1e-6;  // of a range's larger end: what a scale can show
 constexpr double kFarthest = 1e99;
 
@@ -90,7 +90,7 @@ std::string axes_svg(const Axes& axes, const std::string& x_label, const std::st
     if (!y_label.empty())
         numbers += "<text transform=\"translate(14 " + coordinate(half) +
                    ") rotate(-90)\" text-anchor=\"middle\">" + escaped(y_label) + "</text>";
-    return "<path class=\"grid\" d=\"" + grid + "\"/>" + numbers;
+    return "<path class=\"rules\" d=\"" + grid + "\"/>" + numbers;
 }
 
 std::string line_class(std::size_t number) {
@@ -140,14 +140,14 @@ std::string chart_figure(const Panel& panel, const std::string& x_label) {
     std::string legend, lines, alternative = panel.title + " over " + x_label + ": ";
     for (std::size_t l = 0; l < panel.lines.size(); ++l) {
         const Line& line = panel.lines[l];
-        legend += "<li><span class=\"key " + line_class(l) + "\"></span>" + escaped(line.name) +
-                  "</li>";
+        legend +=
+            "<li><span class=\"key " + line_class(l) + "\"></span>" + escaped(line.name) + "</li>";
         lines += "<path class=\"line " + line_class(l) + "\" d=\"" + path_of(line, axes) + "\"/>";
         alternative += (l > 0 ? ", " : "") + spoken(line);
     }
-    return figure_of(panel.title, "<ul class=\"legend\">" + legend + "</ul>" +
-                                      svg_of(alternative, axes_svg(axes, x_label, panel.y_label) +
-                                                              lines));
+    return figure_of(panel.title,
+                     "<ul class=\"legend\">" + legend + "</ul>" +
+                         svg_of(alternative, axes_svg(axes, x_label, panel.y_label) + lines));
 }
 
 std::string histogram_figure(const Histogram& histogram, const std::string& title,
@@ -155,7 +155,8 @@ std::string histogram_figure(const Histogram& histogram, const std::string& titl
     const std::int64_t most = *std::ranges::max_element(histogram.counts);
     std::int64_t total = 0;
     for (const std::int64_t count : histogram.counts) total += count;
-    const Axes axes{histogram.range, {0, 1.05 * static_cast<double>(std::max<std::int64_t>(most, 1))}};
+    const Axes axes{histogram.range,
+                    {0, 1.05 * static_cast<double>(std::max<std::int64_t>(most, 1))}};
     const auto parts = static_cast<double>(histogram.counts.size());
     const double width = (histogram.range.most - histogram.range.least) / parts;
     std::string bars;
