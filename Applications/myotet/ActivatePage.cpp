@@ -73,8 +73,8 @@ std::string muscles_html(const RunJson& run) {
 
 std::string coordinates_html(const RunJson& run) {
     HtmlTable table{.caption = "Coordinates",
-                    .columns = {"coordinate", "unit", "largest torque", "largest reserve",
-                                "reserve, root mean square", "most that nothing carries", "held"},
+                    .columns = {"coordinate", "unit", "largest torque", "largest reserve or hold",
+                                "root mean square of it", "most that nothing carries", "held"},
                     .rows = {}};
     for (const RunJson& coordinate : run.at("coordinates")) {
         const bool turns = coordinate.contains("largest_torque_N_mm");

@@ -153,8 +153,11 @@ std::string to_html(const HtmlTable& table) {
     const std::string caption = escaped(table.caption);
     std::string html = "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"" +
                        caption + "\"><table><caption>" + caption + "</caption>\n<thead><tr>";
-    for (const std::string& column : table.columns)
-        html += "<th scope=\"col\">" + escaped(column) + "</th>";
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        const bool number = c > 0 && !table.rows.empty() && table.rows[0][c].number;
+        html += "<th scope=\"col\"" + std::string(number ? " class=\"number\"" : "") + ">" +
+                escaped(table.columns[c]) + "</th>";
+    }
     html += "</tr></thead>\n<tbody>\n";
     for (const std::vector<Cell>& row : table.rows) {
         html += "<tr>";

@@ -26,6 +26,7 @@ nav ul{display:flex;gap:1.1rem;list-style:none;margin:0;padding:.55rem 0;overflo
 nav a{text-decoration:none}
 nav a:hover{text-decoration:underline}
 section{scroll-margin-top:3rem}
+section:first-of-type h2{border-top:0;margin-top:1rem}
 .verdict{display:inline-block;margin:0 0 .6rem;padding:.45rem .9rem;border-radius:.6rem;
 border-left:5px solid var(--good);background:var(--card)}
 .verdict.bad{border-color:var(--bad);background:var(--badly)}
@@ -36,7 +37,8 @@ border-left:5px solid var(--good);background:var(--card)}
 figure{margin:0}
 figcaption{color:var(--soft);font-size:.9rem;padding:.4rem .1rem 0}
 figure img{display:block;max-width:100%;height:auto;margin:0 auto}
-.grid{display:grid;gap:1rem;grid-template-columns:repeat(auto-fill,minmax(min(100%,var(--least,17rem)),1fr))}
+.grid img{max-height:28rem;width:auto}
+.grid{display:grid;gap:1rem;grid-template-columns:repeat(auto-fill,minmax(min(100%,var(--least,20rem)),1fr))}
 .grid figure,.frame{background:#fff;color:#1b1f24;border:1px solid var(--edge);border-radius:.6rem;padding:.6rem}
 .grid figure{display:flex;flex-direction:column;justify-content:space-between}
 .grid figcaption,.frame figcaption{color:#57606a}
@@ -61,15 +63,16 @@ table{border-collapse:collapse;font-size:.92rem;font-variant-numeric:tabular-num
 caption{text-align:left;color:var(--soft);padding:.2rem 0 .4rem}
 th,td{padding:.32rem .75rem;border-bottom:1px solid var(--edge);text-align:left;vertical-align:top}
 thead th{vertical-align:bottom;color:var(--soft);font-weight:600}
-tbody th{font-weight:500;min-width:8rem;overflow-wrap:anywhere}
+tbody th{font-weight:500;min-width:11rem;max-width:22rem;overflow-wrap:break-word}
 tbody tr:hover{background:var(--card)}
-.number{text-align:right;white-space:nowrap}
+th.number,td.number{text-align:right}
+td.number{white-space:nowrap}
 .kept{color:var(--good);white-space:nowrap}
 .broken{color:var(--bad);white-space:nowrap}
 .strip{margin:.6rem 0 1.4rem;max-width:62rem}
 .frames{display:flex;gap:1rem;overflow-x:auto;padding-bottom:.4rem;scroll-snap-type:x proximity}
 .frame{flex:0 0 auto;width:min(100%,34rem);scroll-snap-align:start}
-.frame svg{display:block;width:100%;max-height:70vh}
+.frame svg{display:block;width:100%;max-height:min(70vh,38rem)}
 .frame img{display:block;max-width:100%;height:auto;margin:0 auto}
 .slice image{image-rendering:pixelated}
 .outline path{fill:none;stroke-width:1.6;vector-effect:non-scaling-stroke;stroke-linejoin:round}

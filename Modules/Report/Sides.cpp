@@ -10,7 +10,7 @@ namespace myotet::report {
 namespace {
 
 constexpr Colour kGrey{0.35, 0.35, 0.35};
-constexpr double kSidePerLetterSize = 300, kHalo = 3;  // pixels a square; squares
+constexpr double kSidePerLetterSize = 190, kHalo = 3;  // pixels a square; squares
 constexpr double kMargin = 3;                          // squares
 
 void draw_letter(Picture& picture, char side, const Vec2& place, double size) {

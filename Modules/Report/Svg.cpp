@@ -14,7 +14,7 @@ namespace {
 
 // The drawing, in its own units; a page scales it.
 constexpr double kWidth = 560, kHeight = 260;
-constexpr double kLeft = 62, kRight = 10, kTop = 12, kBottom = 44;
+constexpr double kLeft = 78, kRight = 20, kTop = 12, kBottom = 44;
 constexpr int kMostXTicks = 8, kMostYTicks = 6;
 constexpr double kRoom = 0.05;        // of a range, at either end
 constexpr double kLeastShare = 1e-6;  // of a range's larger end: what a scale can show
