@@ -45,10 +45,13 @@ void read_mesh_of(const RunJson& tissue, const fs::path& folder, TissueView& vie
 
 segmentation::ReadOptions reading_of(const RunJson& options) {
     segmentation::ReadOptions reading;
-    const std::string orientation = text_of(options, "orientation");
+    const auto given = [&](const char* key) {
+        return options.contains(key) ? text_of(options, key) : "";
+    };
+    const std::string orientation = given("orientation");
     if (orientation == "sform") reading.orientation = segmentation::Orientation::sform;
     if (orientation == "qform") reading.orientation = segmentation::Orientation::qform;
-    reading.one_hot = text_of(options, "one_hot") == "yes";
+    reading.one_hot = given("one_hot") == "yes";
     return reading;
 }
 
@@ -94,8 +97,10 @@ struct Look {
 // A picture as high and wide as what it shows, within limits.
 report::Picture draw_shapes(const std::vector<report::Shape>& shapes, const Look& look,
                             const Box& box, int side) {
-    constexpr double kSlimmest = 0.55;
+    constexpr double kSlimmest = 0.55, kRoom = 0.03;  // for the letters at the sides
     report::View view{.direction = look.direction, .up = look.up, .fit = box};
+    view.fit.min.array() -= kRoom * box.extent().maxCoeff();
+    view.fit.max.array() += kRoom * box.extent().maxCoeff();
     const Vec3 extent = box.extent();
     const double wide = look.direction.cross(look.up).cwiseAbs().dot(extent);
     const double high = look.up.cwiseAbs().dot(extent);

@@ -12,7 +12,8 @@ namespace myotet::report {
 [[nodiscard]] Colour map_colour(double share);
 
 /// A colour for one of many things, counted from 0: hues a golden angle apart, so that
-/// neighbours in number differ, in three lightnesses by turns.
+/// neighbours in number differ, in three lightnesses and two saturations by turns; among 116 no
+/// two are nearer than 0.07 in red, green and blue.
 [[nodiscard]] Colour distinct_colour(std::size_t number);
 
 }  // namespace myotet::report

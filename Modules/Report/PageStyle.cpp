@@ -63,7 +63,7 @@ table{border-collapse:collapse;font-size:.92rem;font-variant-numeric:tabular-num
 caption{text-align:left;color:var(--soft);padding:.2rem 0 .4rem}
 th,td{padding:.32rem .75rem;border-bottom:1px solid var(--edge);text-align:left;vertical-align:top}
 thead th{vertical-align:bottom;color:var(--soft);font-weight:600}
-tbody th{font-weight:500;min-width:11rem;max-width:22rem;overflow-wrap:break-word}
+tbody th{font-weight:500;min-width:13rem;max-width:26rem;overflow-wrap:break-word}
 tbody tr:hover{background:var(--card)}
 th.number,td.number{text-align:right}
 td.number{white-space:nowrap}
@@ -82,6 +82,7 @@ td.number{white-space:nowrap}
 .controls output{min-width:8rem;font-variant-numeric:tabular-nums}
 button{font:inherit;padding:.25rem .9rem;border:1px solid var(--edge);border-radius:.5rem;background:var(--card);
 color:var(--ink);cursor:pointer}
+.slides figcaption{display:none}
 .slides .frames{display:block;overflow:visible}
 .slides .frame{width:100%}
 .slides .frame:not(.shown){display:none}
@@ -99,7 +100,7 @@ table{font-size:8pt}th,td{padding:.15rem .35rem}
 .planes .frames,.planes .slides .frames{grid-template-columns:1fr}
 .frame,.slides .frame,.slides .frame:not(.shown){display:block;width:auto}
 .planes .frame:not(.shown),.planes .slides .frame:not(.shown){display:none}
-figure,.frame,tr{break-inside:avoid}h2,h3{break-after:avoid}}
+.slides figcaption{display:block}figure,.frame,tr{break-inside:avoid}h2,h3{break-after:avoid}}
 )css";
 
 const std::string_view kPageScript = R"js(

@@ -64,7 +64,7 @@ std::string path_of(const std::vector<Vec3>& curve, const SliceView& view) {
 
 std::string letters(const SliceView& view) {
     const Sides sides = view.sides();
-    const double w = view.width(), h = view.height(), size = 0.07 * std::min(w, h);
+    const double w = view.width(), h = view.height(), size = 0.038 * std::max(w, h);
     const auto letter = [&](double x, double y, char side) {
         return "<text x=\"" + decimal(x) + "\" y=\"" + decimal(y) + "\">" + side + "</text>";
     };
