@@ -35,7 +35,7 @@ border-left:5px solid var(--good);background:var(--card)}
 .facts dt{color:var(--soft);font-size:.85rem}
 .facts dd{margin:0;font-size:1.25rem;font-weight:600;font-variant-numeric:tabular-nums}
 figure{margin:0}
-figcaption{color:var(--soft);font-size:.9rem;padding:.4rem .1rem 0}
+figcaption{overflow-wrap:anywhere;color:var(--soft);font-size:.9rem;padding:.4rem .1rem 0}
 figure img{display:block;max-width:100%;height:auto;margin:0 auto}
 .grid img{max-height:28rem;width:auto}
 .grid{display:grid;gap:1rem;grid-template-columns:repeat(auto-fill,minmax(min(100%,var(--least,20rem)),1fr))}
