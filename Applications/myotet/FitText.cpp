@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 std::string to_json(const FitReport& report) {
-    const activation::ExpensiveFit& fit = report.fit;
+    const activation::ExpensiveFit& fit = report.fitted.fit;
     Json json = {{"scene", report.scene},
                  {"scene_sha256", report.fingerprint},
                  {"target", report.target},
@@ -26,13 +26,12 @@ std::string to_json(const FitReport& report) {
                  {"begin_s", report.begin},
                  {"end_s", report.end}};
     json["quantities"] = Json::array();
-    for (std::size_t q = 0; q < report.quantities.size(); ++q)
-        json["quantities"].push_back({{"name", report.quantities[q]},
-                                      {"most", report.most[q]},
-                                      {"misfit_rms", report.misfit[q]}});
-    json["spline"] = {{"begin_s", report.basis.begin},
-                      {"end_s", report.basis.end},
-                      {"intervals", report.basis.intervals},
+    for (const contraction::FittedQuantity& quantity : report.fitted.quantities)
+        json["quantities"].push_back(
+            {{"name", quantity.name}, {"most", quantity.most}, {"misfit_rms", quantity.misfit}});
+    json["spline"] = {{"begin_s", report.fitted.basis.begin},
+                      {"end_s", report.fitted.basis.end},
+                      {"intervals", report.fitted.basis.intervals},
                       {"coefficients", fit.coefficients}};
     json["misfit_after_each_evaluation"] = Json::array();
     for (const double rms : fit.history)
@@ -49,14 +48,13 @@ std::string to_table(const FitReport& report) {
     char line[256];
     std::string text = "activation of " + report.body + "\n";
     text += "  quantity                              most     misfit (rms)\n";
-    for (std::size_t q = 0; q < report.quantities.size(); ++q) {
-        std::snprintf(line, sizeof line, "  %-32s %9.4g %11.4g (%.2g %%)\n",
-                      report.quantities[q].c_str(), report.most[q], report.misfit[q],
-                      100 * report.misfit[q] / report.most[q]);
+    for (const contraction::FittedQuantity& quantity : report.fitted.quantities) {
+        std::snprintf(line, sizeof line, "  %-32s %9.4g %11.4g (%.2g %%)\n", quantity.name.c_str(),
+                      quantity.most, quantity.misfit, 100 * quantity.misfit / quantity.most);
         text += line;
     }
     std::snprintf(line, sizeof line, "  %d evaluations, %d of them failed\n",
-                  report.fit.evaluations, report.fit.failures);
+                  report.fitted.fit.evaluations, report.fitted.fit.failures);
     return text + line;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -33,17 +34,17 @@ void add_options(CLI::App& command, Arguments& a) {
                     "muscle whose activation is sought (default: the only one)")
         ->type_name("NAME");
     command
-        .add_option("--intervals", a.job.intervals,
+        .add_option("--intervals", a.job.fitting.intervals,
                     "pieces of the activation's cubic spline (default: one each 0.2 s, at most 5)")
         ->check(CLI::Range(1, 200))
         ->type_name("N");
     command
-        .add_option("--evaluations", a.job.evaluations,
+        .add_option("--evaluations", a.job.fitting.evaluations,
                     "times that the scene is run, at most (default: 40)")
         ->check(CLI::Range(1, 100000))
         ->type_name("N");
     command
-        .add_option("--goal", a.job.goal,
+        .add_option("--goal", a.job.fitting.goal,
                     "good enough: misfit (rms) as a part of the target's most (default: 0.01)")
         ->check(kPositive)
         ->type_name("PART");
@@ -66,18 +67,18 @@ ExitCode run(const Arguments& a) {
         report = run_fit_job(a.job, progress);
     }
     std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
-    if (report.fit.status == activation::Status::converged) {
-        for (std::size_t q = 0; q < report.misfit.size(); ++q)
-            if (report.misfit[q] > a.job.goal * report.most[q]) {
-                log_info("this is the best that a spline of " +
-                         std::to_string(report.basis.intervals) +
-                         " intervals can do; more --intervals may come nearer");
-                break;
-            }
+    if (report.fitted.fit.status == activation::Status::converged) {
+        const bool far = std::ranges::any_of(report.fitted.quantities, [&](const auto& quantity) {
+            return quantity.misfit > a.job.fitting.goal * quantity.most;
+        });
+        if (far)
+            log_info("this is the best that a spline of " +
+                     std::to_string(report.fitted.basis.intervals) +
+                     " intervals can do; more --intervals may come nearer");
         log_info("results are in " + report.output);
         return ExitCode::done;
     }
-    log_error(report.fit.message);
+    log_error(report.fitted.fit.message);
     log_info("the best that was found is in " + report.output);
     return ExitCode::not_converged;
 }

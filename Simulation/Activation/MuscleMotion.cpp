@@ -29,6 +29,7 @@ public:
             const skeleton::Path path =
                 skeleton::find_path(model_, muscle, skeleton_.poses(), now.values, memory_[m]);
             for (const int object : path.inside) inside_.insert({static_cast<int>(m), object});
+            for (const int object : path.missed) missed_.insert({static_cast<int>(m), object});
             const std::vector<double> slopes =
                 skeleton::length_rates(model_, muscle, path, skeleton_.poses(), now.values, rates);
             lengths[m] = path.length;
@@ -48,14 +49,19 @@ public:
             sentences.push_back(
                 "muscle " + model_.muscles[muscle].name + " has a point inside the wrap object " +
                 model_.wrap_objects[object].name + " at times, which it then runs through");
+        for (const auto& [muscle, object] : missed_)
+            sentences.push_back("muscle " + model_.muscles[muscle].name +
+                                " has no taut path over the wrap object " +
+                                model_.wrap_objects[object].name +
+                                " at times, and then runs through it");
         return sentences;
     }
 
 private:
     const Model& model_;
     skeleton::Skeleton skeleton_;
-    std::vector<skeleton::PathMemory> memory_;  // a muscle
-    std::set<std::pair<int, int>> inside_;      // muscle, wrap object
+    std::vector<skeleton::PathMemory> memory_;       // a muscle
+    std::set<std::pair<int, int>> inside_, missed_;  // muscle, wrap object
 };
 
 }  // namespace

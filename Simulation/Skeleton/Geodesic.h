@@ -26,7 +26,7 @@ struct GeodesicEnd {
 ///     x'' = -(x'^T H x' / |g|^2) g,   a'' = -K a  (g gradient, H its derivatives, K Gauss')
 /// by Gragg, Bulirsch and Stoer's extrapolation to 1e-13 of the surface's size; not a number
 /// where that would take steps below 1e-4 of the length.
-/// Cost: 2 us for a quarter of an ellipsoid of 35, 20, 20 mm.
+/// Cost: about 1 us for 10 mm on an ellipsoid of 35, 20, 20 mm, 14 us for 30 mm.
 [[nodiscard]] GeodesicEnd follow_geodesic(const WrapSurface& surface, const GeodesicPoint& start,
                                           double length);
 

@@ -169,7 +169,8 @@ void PathFinder::tighten() {
             else
                 ++n;
         }
-        if (!coupled || moved < kStill * scale_) return;
+        loose_ = coupled && !(moved < kStill * scale_);
+        if (!loose_) return;
     }
 }
 
@@ -325,7 +326,8 @@ Path PathFinder::path() const {
     }
     for (std::size_t w = 0; w < tools_.size(); ++w) {
         if (inside_[w]) path.inside.push_back(muscle_.wraps[w].object);
-        if (missed_[w]) path.missed.push_back(muscle_.wraps[w].object);
+        const bool loose = loose_ && count(static_cast<int>(w)) > 0;
+        if (missed_[w] || loose) path.missed.push_back(muscle_.wraps[w].object);
     }
     return path;
 }

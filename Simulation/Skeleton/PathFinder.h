@@ -77,7 +77,8 @@ private:
     std::vector<Contact> contacts_;
     std::vector<PathMemory::Pass> passes_;
     std::vector<char> inside_, missed_, made_room_;
-    double scale_ = 0;  ///< of the path, mm
+    double scale_ = 0;    ///< of the path, mm
+    bool loose_ = false;  ///< contacts did not come to rest
 };
 
 }  // namespace myotet::skeleton

@@ -11,11 +11,13 @@
 #include "Dynamics/NodeAlgebra.h"
 #include "DynamicsShapes.h"
 #include "Elasticity/Materials.h"
+#include "OriginSprings.h"
 
 namespace myotet::dynamics {
 namespace {
 
 using elasticity::NeoHookean;
+using test::OriginSprings;
 const EquilibriumOptions kExact{.tolerance = 1e-11};
 
 std::shared_ptr<const elasticity::PointLaw> rubber(double poisson) {
@@ -31,27 +33,6 @@ std::vector<std::int32_t> nodes_where(const TetMesh& mesh, auto&& holds) {
 }
 
 bool on_surface(const Vec3& p, double side) { return p.minCoeff() == 0 || p.maxCoeff() == side; }
-
-// Linear springs to the origin, as a potential: for a second term beside a body.
-class Wells final : public Potential {
-public:
-    explicit Wells(double k) : k_(k) {}
-    double move_to(const NodeVectors& x) override {
-        x_ = x;
-        return 0.5 * k_ * dot(x, x);
-    }
-    void add_forces(NodeVectors& f) const override { add_scaled(-k_, x_, f); }
-    Cliques cliques() const override { return {}; }
-    void add_stiffness(BlockMatrix& K) const override {
-        for (std::int32_t n = 0; n < static_cast<std::int32_t>(K.rows()); ++n)
-            K.value[K.at(n, n)].diagonal().array() += k_;
-    }
-    double largest_step(const NodeVectors&, const NodeVectors&) const override { return 1; }
-
-private:
-    double k_;
-    NodeVectors x_;
-};
 
 // A block whose lower face is held, and whose upper one was moved.
 struct Pressed {
@@ -210,7 +191,7 @@ TEST(Equilibrium, PotentialsAddUp) {
     // A single free node between springs to the origin and the body.
     const TetMesh mesh{{Vec3(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {}};
     ElasticBody body(mesh, rubber(0.3));
-    Wells wells(0.2);
+    OriginSprings wells(0.2);
     NodeVectors x = mesh.points;
     Equilibrium equilibrium({&body, &wells}, 4, {0, 1, 2}, kExact);
     ASSERT_TRUE(equilibrium.find(x).converged);

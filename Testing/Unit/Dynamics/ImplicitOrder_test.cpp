@@ -4,6 +4,7 @@
 
 #include "Elasticity/Viscous.h"
 #include "ImplicitShapes.h"
+#include "OriginSprings.h"
 
 namespace myotet::dynamics {
 namespace {
@@ -11,28 +12,8 @@ namespace {
 using test::Block;
 using test::distance;
 using test::kExact;
+using test::OriginSprings;
 using test::rubber;
-
-// Linear springs to the origin.
-class Springs final : public Potential {
-public:
-    explicit Springs(double k) : k_(k) {}
-    double move_to(const NodeVectors& x) override {
-        x_ = x;
-        return 0.5 * k_ * dot(x, x);
-    }
-    void add_forces(NodeVectors& f) const override { add_scaled(-k_, x_, f); }
-    Cliques cliques() const override { return {}; }
-    void add_stiffness(BlockMatrix& K) const override {
-        for (std::int32_t n = 0; n < static_cast<std::int32_t>(K.rows()); ++n)
-            K.value[K.at(n, n)].diagonal().array() += k_;
-    }
-    double largest_step(const NodeVectors&, const NodeVectors&) const override { return 1; }
-
-private:
-    double k_;
-    NodeVectors x_;
-};
 
 // Where a stretched block is after 0.2 ms, about the period of its slowest vibration. Points of
 // a viscous law begin at rest.
@@ -84,7 +65,7 @@ TEST(ImplicitIntegrator, DampingKeepsTheOrder) {
 
 // The matrix by which a step multiplies (x, dt v, dt^2 a) of a vibration x'' = - omega^2 x.
 Mat3 amplification(const ImplicitOptions& options, double omega_dt) {
-    Springs springs(omega_dt * omega_dt);
+    OriginSprings springs(omega_dt * omega_dt);
     ImplicitIntegrator integrator({&springs}, {1}, {}, options);
     Motion motion = integrator.start({Vec3::Zero()}, {Vec3::Zero()});
     // Three vibrations at once, one along each axis.

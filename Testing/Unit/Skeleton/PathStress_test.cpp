@@ -31,7 +31,7 @@ Arm random_arm(Dice& dice, int number) {
 TEST(PathStress, PathsKeepOutOfObjectsOrSayWhichTheyDoNot) {
     Dice dice(30);
     int touching = 0, missed = 0, said_inside = 0;
-    const int trials = 3000;
+    const int trials = 1500;
     for (int n = 0; n < trials; ++n) {
         SCOPED_TRACE(n);
         const Arm arm = random_arm(dice, n);
