@@ -75,4 +75,9 @@ void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {
         ->type_name("RECIPE");
 }
 
+void add_page_option(CLI::App& command, bool& wanted) {
+    command.add_flag("!--no-report", wanted,
+                     "make no report.html, the page that shows the results (default: it is made)");
+}
+
 }  // namespace myotet::app

@@ -21,6 +21,9 @@ void add_scan_options(CLI::App& command, ScanOptions& options);
 /// --smooth and what else becomes of the labels before they are results.
 void add_level_set_options(CLI::App& command, LevelSetChoices& choices);
 
+/// --no-report: whether a run ends with its page.
+void add_page_option(CLI::App& command, bool& wanted);
+
 /// Accepts numbers above zero; CLI11's own check lets NaN and infinity pass.
 inline const CLI::Validator kPositive(
     [](std::string& text) -> std::string {

@@ -13,6 +13,13 @@ std::string name_of(levelset::Smoothing smoothing) {
                                                  : "curvature";
 }
 
+std::string name_of(segmentation::Orientation orientation) {
+    using segmentation::Orientation;
+    return orientation == Orientation::sform   ? "sform"
+           : orientation == Orientation::qform ? "qform"
+                                               : "";
+}
+
 }  // namespace
 
 RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& choices,
@@ -23,6 +30,8 @@ RunFacts describe_level_sets(const ScanOptions& options, const LevelSetChoices& 
     for (const Tissue& tissue : sets.tissues) facts.labels.push_back(tissue.label);
     const bool labels = scan.spacing.x() > 0;
     facts.options_text = {{"names_from", scan.names_from.string()},
+                          {"orientation", name_of(options.reading.orientation)},
+                          {"one_hot", options.reading.one_hot ? "yes" : ""},
                           {"smoothing", labels ? name_of(choices.smoothing) : ""},
                           {"repair", choices.repair.string()},
                           {"input_unit", scan.input_unit}};

@@ -7,6 +7,7 @@
 #include "Commands.h"
 #include "Console.h"
 #include "Core/Text.h"
+#include "ReportJob.h"
 
 namespace myotet::app {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 struct Arguments {
     ActivateJobOptions job;
     std::string cost = "activation^2";
-    bool json = false, quiet = false, verbose = false;
+    bool json = false, quiet = false, verbose = false, page = true;
 };
 
 // "activation^2", "stress^3"
@@ -114,6 +115,7 @@ void add_options(CLI::App& command, Arguments& a) {
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
     command.add_flag("!--no-pictures", a.job.pictures, "draw no activation.png");
+    add_page_option(command, a.page);
     command.add_flag("--json", a.json, "print report.json instead of the table");
     auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
     command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
@@ -140,6 +142,7 @@ ExitCode run(Arguments& a) {
     {
         ConsoleProgress progress(verbosity);
         report = run_activate_job(a.job, progress);
+        add_page(a.job.output, a.page, progress);
     }
     for (const std::string& note : report.notes) log_detail(note);
     std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;

@@ -6,13 +6,14 @@
 #include "Commands.h"
 #include "Console.h"
 #include "ContractJob.h"
+#include "ReportJob.h"
 
 namespace myotet::app {
 namespace {
 
 struct Arguments {
     ContractJobOptions job;
-    bool json = false, quiet = false, verbose = false, dry_run = false;
+    bool json = false, quiet = false, verbose = false, dry_run = false, page = true;
 };
 
 void add_options(CLI::App& command, Arguments& a) {
@@ -33,6 +34,7 @@ void add_options(CLI::App& command, Arguments& a) {
         ->type_name("N");
     command.add_flag("!--no-pictures", a.job.pictures,
                      "draw no pictures of the frames (default: pictures/*.png in the folder)");
+    add_page_option(command, a.page);
     command.add_flag("--json", a.json, "print report.json instead of the table");
     auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
     command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
@@ -60,6 +62,7 @@ ExitCode run(const Arguments& a) {
     {
         ConsoleProgress progress(verbosity);
         report = a.dry_run ? check_scene(a.job, progress) : run_contract_job(a.job, progress);
+        if (!a.dry_run) add_page(a.job.output, a.page && !report.run.interrupted, progress);
     }
     for (const ContractBody& body : report.bodies)
         for (const std::string& note : body.notes) log_detail(body.name + ": " + note);

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
         add_mesh(program, code);
         add_phantom(program, code);
         add_quality(program, code);
+        add_report(program, code);
         add_surface(program, code);
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

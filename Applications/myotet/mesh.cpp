@@ -8,6 +8,7 @@
 #include "Console.h"
 #include "ExitCodes.h"
 #include "MeshJob.h"
+#include "ReportJob.h"
 #include "ReportText.h"
 #include "Text.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 struct Arguments {
     JobOptions job;
-    bool json = false, quiet = false, verbose = false, dry_run = false;
+    bool json = false, quiet = false, verbose = false, dry_run = false, page = true;
 };
 
 void add_options(CLI::App& command, Arguments& a) {
@@ -73,6 +74,7 @@ void add_options(CLI::App& command, Arguments& a) {
     command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
+    add_page_option(command, a.page);
     command.add_flag("--json", a.json, "print report.json instead of the table");
     auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
     command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
@@ -135,6 +137,7 @@ ExitCode run(const Arguments& a) {
         ConsoleProgress progress(verbosity);
         if (a.dry_run) return print_forecast(a, progress);
         report = run_job(a.job, progress);
+        add_page(a.job.output, a.page, progress);
     }
     tell_notes(report);
     std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;

@@ -24,4 +24,19 @@ Colour map_colour(double share) {
     return colour;
 }
 
+Colour distinct_colour(std::size_t number) {
+    constexpr double kGolden = 0.618033988749895, kFirst = 0.58;  // of a turn; blue
+    constexpr double kLightness[] = {0.50, 0.64, 0.38};
+    constexpr double kSaturation[] = {0.75, 0.55};
+    const double hue = std::fmod(kFirst + kGolden * static_cast<double>(number), 1.0);
+    const double light = kLightness[number % 3];
+    const double reach = kSaturation[number % 2] * std::min(light, 1 - light);
+    Colour colour;
+    for (int c = 0; c < 3; ++c) {  // hue, saturation, lightness to red, green, blue
+        const double k = std::fmod((c == 0 ? 0.0 : c == 1 ? 8.0 : 4.0) + 12 * hue, 12.0);
+        colour[c] = light - reach * std::max(-1.0, std::min({k - 3, 9 - k, 1.0}));
+    }
+    return colour;
+}
+
 }  // namespace myotet::report

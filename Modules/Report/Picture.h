@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace myotet::report {
@@ -39,6 +40,9 @@ void set_pixel(Picture& picture, int x, int y, const Colour& colour);
 /// Writes .png: 8-bit sRGB without transparency. The bytes depend on the picture and the
 /// zlib at hand alone. Throws IoError.
 void write_png(const Picture& picture, const std::filesystem::path& file);
+
+/// The bytes that write_png would write. Throws IoError.
+[[nodiscard]] std::string encode_png(const Picture& picture);
 
 /// Reads a .png of any kind as 8-bit sRGB, transparent pixels on white. Throws IoError.
 [[nodiscard]] Picture read_png(const std::filesystem::path& file);

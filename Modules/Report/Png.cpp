@@ -26,16 +26,32 @@ struct Image {
                   "); check the file, its folder and the space left");
 }
 
-}  // namespace
-
-void write_png(const Picture& picture, const fs::path& file) {
+void describe(const Picture& picture, png_image& image) {
     MYOTET_CHECK(picture.width > 0 && picture.height > 0 &&
                      picture.rgb.size() == picture.offset(0, picture.height),
                  "a picture has three bytes a pixel");
+    image.width = static_cast<png_uint_32>(picture.width);
+    image.height = static_cast<png_uint_32>(picture.height);
+    image.format = PNG_FORMAT_RGB;
+}
+
+}  // namespace
+
+std::string encode_png(const Picture& picture) {
     Image png;
-    png.image.width = static_cast<png_uint_32>(picture.width);
-    png.image.height = static_cast<png_uint_32>(picture.height);
-    png.image.format = PNG_FORMAT_RGB;
+    describe(picture, png.image);
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);
+    std::string bytes(size, '\0');
+    if (!png_image_write_to_memory(&png.image, bytes.data(), &size, 0, picture.rgb.data(), 0,
+                                   nullptr))
+        refuse("a picture", "written", png.image);
+    bytes.resize(size);
+    return bytes;
+}
+
+void write_png(const Picture& picture, const fs::path& file) {
+    Image png;
+    describe(picture, png.image);
     write_atomically(file, [&](const fs::path& temporary) {
         if (!png_image_write_to_file(&png.image, temporary.c_str(), 0, picture.rgb.data(), 0,
                                      nullptr))

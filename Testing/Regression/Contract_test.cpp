@@ -92,11 +92,11 @@ protected:
         change("scene.yaml", from, to);
         return refused();
     }
-    /// Files of the results and their bytes, but for the report, which tells times.
+    /// Files of the results and their bytes, but for the report and its page, which tell times.
     [[nodiscard]] std::map<std::string, std::string> results() const {
         std::map<std::string, std::string> all;
         for (const auto& entry : fs::recursive_directory_iterator(out()))
-            if (entry.is_regular_file() && entry.path().filename() != "report.json")
+            if (entry.is_regular_file() && entry.path().stem() != "report")
                 all[fs::relative(entry.path(), out()).string()] = read_bytes(entry.path());
         return all;
     }

@@ -53,7 +53,7 @@ TEST(MeshJob, WritesEachTissueWithItsNameAndReport) {
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(files_in(out),
               (std::set<std::string>{"1_large_block.stl", "1_large_block.vtu", "2_small_block.stl",
-                                     "2_small_block.vtu", "report.json"}));
+                                     "2_small_block.vtu", "report.html", "report.json"}));
     EXPECT_EQ(ran.out, read_bytes(out / "report.json"));
 
     const Json report = Json::parse(ran.out);
@@ -153,7 +153,8 @@ TEST(MeshJob, OnlyTheLabelsAskedFor) {
     const Ran ran = mesh(scan, folder / "out", {"--edge-length", "8", "--labels", "Small_Block"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(files_in(folder / "out"),
-              (std::set<std::string>{"2_small_block.stl", "2_small_block.vtu", "report.json"}));
+              (std::set<std::string>{"2_small_block.stl", "2_small_block.vtu", "report.html",
+                                     "report.json"}));
 }
 
 TEST(MeshJob, ATableGivenByHandNamesTheLabels) {
@@ -233,10 +234,10 @@ TEST(MeshJob, BytesDoNotDependOnThreads) {
                       .code,
                   0);
     const std::set<std::string> names = files_in(folder / "1");
-    EXPECT_EQ(names.size(), 9u);  // four tissues and the report
+    EXPECT_EQ(names.size(), 10u);  // four tissues, the report and its page
     EXPECT_EQ(files_in(folder / "3"), names);
     for (const std::string& name : names) {
-        if (name == "report.json") continue;  // it tells times
+        if (name == "report.json" || name == "report.html") continue;  // they tell times
         EXPECT_EQ(read_bytes(folder / "3" / name), read_bytes(folder / "1" / name)) << name;
     }
 }
