@@ -81,9 +81,10 @@ struct Distribution {
                                                    const DistributionOptions& options,
                                                    ProgressSink& progress);
 
-/// What a muscle pulls at an activation, and how that grows with it.
+/// What a muscle pulls at an activation, and its derivatives by it.
 struct Pull {
     double force = 0, slope = 0;  ///< N, N
+    double bend = 0;              ///< N, the second: curve fits end faster when they know it
 };
 using PullOf = std::function<Pull(std::size_t muscle, double activation)>;
 

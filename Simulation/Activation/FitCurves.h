@@ -72,10 +72,11 @@ struct CurveFit {
 /// errors in parts of the usual ones, sums over coordinates or muscles, means over time. The
 /// excitation u that a curve implies is that of muscle::ActivationDynamics,
 ///     a + rise (0.5 + 1.5 a) a'  or  a + fall a' / (0.5 + 1.5 a)  as a' is positive or not,
-/// looked at four times an interval. First by Levenberg and Marquardt's method in a trust
-/// region with bounds [Ceres], then by least_within_bounds, with exact derivatives. Linear but
-/// for excitation and `pull`: some 10 to 30 iterations of O(times muscles^2 + intervals
-/// muscles^3). Same bytes each run.
+/// looked at four times an interval. By least_within_bounds, with exact first and second
+/// derivatives: some 20 to 100 iterations of O(times muscles^2 + intervals muscles^3), most
+/// where torques are faster than muscles. Limits of excitation are not convex, so that there
+/// may be several least costs; where muscles nearly can, all starts tried lead to the same.
+/// Same bytes each run.
 /// Throws InputError.
 [[nodiscard]] CurveFit fit_curves(const FitTargets& targets, const FitOptions& options);
 

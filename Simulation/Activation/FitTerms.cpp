@@ -10,6 +10,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Time constants scale with kIdle + kActive a, see muscle::ActivationDynamics.
+constexpr double kIdle = 0.5, kActive = 1.5;
+
 Index to_index(std::size_t i) { return static_cast<Index>(i); }
 
 }  // namespace
@@ -36,22 +39,27 @@ Pull TargetTerm::pull(std::size_t muscle, double activation) const {
 
 TermValues TargetTerm::evaluate(const VectorXd& activations) const {
     const Index n = to_index(demand_.muscles()), m = to_index(demand_.coordinates());
-    VectorXd forces(n), slopes(n);
+    VectorXd forces(n), slopes(n), bends(n);
     for (Index i = 0; i < n; ++i) {
         const Pull now = pull(static_cast<std::size_t>(i), activations[i]);
         forces[i] = now.force;
         slopes[i] = now.slope;
+        bends[i] = now.bend;
     }
-    TermValues out{VectorXd::Zero(residuals_), MatrixXd::Zero(residuals_, n), {}, {}};
+    TermValues out{VectorXd::Zero(residuals_), MatrixXd::Zero(residuals_, n), {}};
     const double torque = share_ / options_.torque_error, force = share_ / options_.force_error;
     const VectorXd asked = Eigen::Map<const VectorXd>(demand_.torques.data(), m);
     out.residuals.head(m) = torque * (demand_.arms * forces - asked);
     out.by_activation.topRows(m) = torque * demand_.arms * slopes.asDiagonal();
+    // By forces.
+    VectorXd wrong = torque * demand_.arms.transpose() * out.residuals.head(m);
     Index row = m;
     for (const std::size_t i : pulling_) {
         out.residuals[row] = force * (forces[to_index(i)] - targets_.forces[time_][i]);
+        wrong[to_index(i)] += force * out.residuals[row];
         out.by_activation(row++, to_index(i)) = force * slopes[to_index(i)];
     }
+    out.curvature = wrong.cwiseProduct(bends);
     const double measured = share_ / options_.measured_error;
     for (const std::size_t i : measured_) {
         out.residuals[row] = measured * (activations[to_index(i)] - demand_.measured[i]);
@@ -63,35 +71,29 @@ TermValues TargetTerm::evaluate(const VectorXd& activations) const {
     return out;
 }
 
-TermValues bending(const FitOptions& options, const VectorXd& bends, double share) {
-    const double weight = share * std::sqrt(2 * options.smoothness);
-    return {weight * bends, {}, {}, weight * MatrixXd::Identity(bends.size(), bends.size())};
+Excitation rising(const muscle::ActivationDynamics& dynamics, double activation, double rate) {
+    const double slowness = kIdle + kActive * activation, by = kActive * dynamics.rise;
+    return {activation + dynamics.rise * slowness * rate, 1 + by * rate, dynamics.rise * slowness,
+            0, by};
+}
+
+Excitation falling(const muscle::ActivationDynamics& dynamics, double activation, double rate) {
+    const double slowness = kIdle + kActive * activation;
+    const double fall = dynamics.fall / slowness, by = -kActive * fall / slowness;
+    return {activation + fall * rate, 1 + by * rate, fall, -2 * kActive / slowness * by * rate, by};
 }
 
 Excitation implied_excitation(const muscle::ActivationDynamics& dynamics, double activation,
                               double rate) {
-    const double slowness = 0.5 + 1.5 * activation;
-    if (rate > 0)
-        return {activation + dynamics.rise * slowness * rate, 1 + 1.5 * dynamics.rise * rate,
-                dynamics.rise * slowness};
-    const double fall = dynamics.fall / slowness;
-    return {activation + fall * rate, 1 - 1.5 * fall / slowness * rate, fall};
+    return rate > 0 ? rising(dynamics, activation, rate) : falling(dynamics, activation, rate);
 }
 
-TermValues excitation_out(const FitOptions& options, const VectorXd& activations,
-                          const VectorXd& rates, double share) {
-    const Index n = activations.size();
-    const double weight = share / options.excitation_error;
-    TermValues out{VectorXd::Zero(n), MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), {}};
-    for (Index i = 0; i < n; ++i) {
-        const Excitation u = implied_excitation(options.dynamics[static_cast<std::size_t>(i)],
-                                                activations[i], rates[i]);
-        if (u.value >= 0 && u.value <= 1) continue;
-        out.residuals[i] = weight * (u.value < 0 ? u.value : u.value - 1);
-        out.by_activation(i, i) = weight * u.by_activation;
-        out.by_rate(i, i) = weight * u.by_rate;
-    }
-    return out;
+// The least is at s = (w + sqrt(w^2 + 4 round^2)) / 2, which is the slope too.
+Hinge hinge(double w, double round) {
+    if (round == 0) return w > 0 ? Hinge{0.5 * w * w, w, 1} : Hinge{0, 0, 0};
+    const double root = std::hypot(w, 2 * round);
+    const double slope = w > 0 ? 0.5 * (w + root) : 2 * round * round / (root - w);
+    return {0.5 * w * slope + round * round * std::asinh(0.5 * w / round), slope, slope / root};
 }
 
 }  // namespace myotet::activation

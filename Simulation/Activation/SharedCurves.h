@@ -15,9 +15,9 @@ struct SharedCurves {
 };
 
 /// Instead of each time on its own, as `sharing`: activations that are cubic splines of time
-/// with knots each `spacing` s and keep to the muscles' rise and fall, see fit_curves. Their
-/// squares count little beside torques, of which a hundredth of the largest is an error of
-/// usual size; measured activations count too. Bounds are the models', none over time.
+/// with knots each `spacing` s and keep to the muscles' rise and fall, see fit_curves. Of
+/// torques a hundredth of the largest is an error of usual size; measured activations count
+/// too. Bounds are the models', none over time.
 /// Throws InputError.
 [[nodiscard]] SharedCurves share_by_curves(const skeleton::Model& model, const MuscleMotion& motion,
                                            const SharingOptions& options, const Sharing& sharing,
