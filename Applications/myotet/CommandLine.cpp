@@ -5,6 +5,24 @@
 
 namespace myotet::app {
 
+void add_talk_options(CLI::App& command, Talk& talk) {
+    command.add_flag("--json", talk.json, "print report.json instead of the table");
+    auto* quiet = command.add_flag("--quiet", talk.quiet, "say nothing but errors and the result");
+    command.add_flag("--verbose", talk.verbose, "say more about what is done")->excludes(quiet);
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+    command.add_option("--threads", threads, "threads to use (default: all there are)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+}
+
+void add_no_flag(CLI::App& command, const std::string& name, bool& wanted,
+                 const std::string& what) {
+    command.add_flag_callback(
+        name, [&wanted] { wanted = false; }, what);
+}
+
 void add_read_options(CLI::App& command, segmentation::ReadOptions& options) {
     using segmentation::Orientation;
     static const std::map<std::string, Orientation> orientations = {{"sform", Orientation::sform},
@@ -76,8 +94,8 @@ void add_level_set_options(CLI::App& command, LevelSetChoices& choices) {
 }
 
 void add_page_option(CLI::App& command, bool& wanted) {
-    command.add_flag("!--no-report", wanted,
-                     "make no report.html, the page that shows the results (default: it is made)");
+    add_no_flag(command, "--no-report", wanted,
+                "make no report.html, the page that shows the results (default: it is made)");
 }
 
 }  // namespace myotet::app

@@ -6,11 +6,29 @@
 #include <map>
 #include <string>
 
+#include "Console.h"
 #include "LevelSetStage.h"
 #include "Scan.h"
 #include "Segmentation/ReadLabels.h"
 
 namespace myotet::app {
+
+/// How a command tells what it came to.
+struct Talk {
+    bool json = false, quiet = false, verbose = false;
+    [[nodiscard]] Verbosity verbosity() const {
+        return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+    }
+};
+
+/// --json, --quiet and --verbose.
+void add_talk_options(CLI::App& command, Talk& talk);
+
+/// --threads; 0: as many as the process may use.
+void add_threads_option(CLI::App& command, int& threads);
+
+/// A flag --no-... that takes away what is there without it.
+void add_no_flag(CLI::App& command, const std::string& name, bool& wanted, const std::string& what);
 
 /// --names, --orientation and --one-hot: how a label file is read.
 void add_read_options(CLI::App& command, segmentation::ReadOptions& options);

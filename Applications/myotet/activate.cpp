@@ -15,7 +15,8 @@ namespace {
 struct Arguments {
     ActivateJobOptions job;
     std::string cost = "activation^2";
-    bool json = false, quiet = false, verbose = false, page = true;
+    Talk talk;
+    bool page = true;
 };
 
 // "activation^2", "stress^3"
@@ -57,8 +58,8 @@ void add_options(CLI::App& command, Arguments& a) {
                     "whether tendons stretch: elastic or rigid (default: as the model says)")
         ->transform(one_of(tendons))
         ->type_name("KIND");
-    command.add_flag("!--no-passive", a.job.passive,
-                     "leave out what relaxed muscles pull when stretched");
+    add_no_flag(command, "--no-passive", a.job.passive,
+                "leave out what relaxed muscles pull when stretched");
     command.add_flag("--static", a.job.still, "leave out speeds and inertia: postures held");
     command
         .add_option("--bounds", a.job.bounds,
@@ -111,14 +112,10 @@ void add_options(CLI::App& command, Arguments& a) {
                     "key frames 0.01)")
         ->check(kPositive)
         ->type_name("S");
-    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
-        ->check(CLI::Range(1, 4096))
-        ->type_name("N");
-    command.add_flag("!--no-pictures", a.job.pictures, "draw no activation.png");
+    add_threads_option(command, a.job.threads);
+    add_no_flag(command, "--no-pictures", a.job.pictures, "draw no activation.png");
     add_page_option(command, a.page);
-    command.add_flag("--json", a.json, "print report.json instead of the table");
-    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
-    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    add_talk_options(command, a.talk);
 }
 
 ExitCode tell_end(const ActivateReport& report) {
@@ -133,9 +130,7 @@ ExitCode tell_end(const ActivateReport& report) {
 }
 
 ExitCode run(Arguments& a) {
-    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
-                                : a.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     read_cost(a.cost, a.job);
     ActivateReport report;
@@ -145,7 +140,7 @@ ExitCode run(Arguments& a) {
         add_page(a.job.output, a.page, progress);
     }
     for (const std::string& note : report.notes) log_detail(note);
-    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    std::cout << (a.talk.json ? to_json(report) : to_table(report)) << std::flush;
     return tell_end(report);
 }
 

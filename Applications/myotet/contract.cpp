@@ -13,7 +13,8 @@ namespace {
 
 struct Arguments {
     ContractJobOptions job;
-    bool json = false, quiet = false, verbose = false, dry_run = false, page = true;
+    Talk talk;
+    bool dry_run = false, page = true;
 };
 
 void add_options(CLI::App& command, Arguments& a) {
@@ -29,15 +30,11 @@ void add_options(CLI::App& command, Arguments& a) {
                     "steps from one checkpoint to the next (default: 10)")
         ->check(CLI::Range(1, 1000000))
         ->type_name("K");
-    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
-        ->check(CLI::Range(1, 4096))
-        ->type_name("N");
-    command.add_flag("!--no-pictures", a.job.pictures,
-                     "draw no pictures of the frames (default: pictures/*.png in the folder)");
+    add_threads_option(command, a.job.threads);
+    add_no_flag(command, "--no-pictures", a.job.pictures,
+                "draw no pictures of the frames (default: pictures/*.png in the folder)");
     add_page_option(command, a.page);
-    command.add_flag("--json", a.json, "print report.json instead of the table");
-    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
-    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    add_talk_options(command, a.talk);
     command.add_flag("--dry-run", a.dry_run,
                      "only read, mesh and check the scene and say what it holds; write nothing");
 }
@@ -54,9 +51,7 @@ ExitCode tell_end(const ContractReport& report) {
 }
 
 ExitCode run(const Arguments& a) {
-    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
-                                : a.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     ContractReport report;
     {
@@ -66,7 +61,7 @@ ExitCode run(const Arguments& a) {
     }
     for (const ContractBody& body : report.bodies)
         for (const std::string& note : body.notes) log_detail(body.name + ": " + note);
-    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    std::cout << (a.talk.json ? to_json(report) : to_table(report)) << std::flush;
     return a.dry_run ? ExitCode::done : tell_end(report);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 struct Arguments {
     FitJobOptions job;
-    bool json = false, quiet = false, verbose = false;
+    Talk talk;
 };
 
 void add_options(CLI::App& command, Arguments& a) {
@@ -48,25 +48,19 @@ void add_options(CLI::App& command, Arguments& a) {
                     "good enough: misfit (rms) as a part of the target's most (default: 0.01)")
         ->check(kPositive)
         ->type_name("PART");
-    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
-        ->check(CLI::Range(1, 4096))
-        ->type_name("N");
-    command.add_flag("--json", a.json, "print report.json instead of the table");
-    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
-    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    add_threads_option(command, a.job.threads);
+    add_talk_options(command, a.talk);
 }
 
 ExitCode run(const Arguments& a) {
-    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
-                                : a.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     FitReport report;
     {
         ConsoleProgress progress(verbosity);
         report = run_fit_job(a.job, progress);
     }
-    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    std::cout << (a.talk.json ? to_json(report) : to_table(report)) << std::flush;
     if (report.fitted.fit.status == activation::Status::converged) {
         const bool far = std::ranges::any_of(report.fitted.quantities, [&](const auto& quantity) {
             return quantity.misfit > a.job.fitting.goal * quantity.most;

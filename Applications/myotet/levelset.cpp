@@ -13,7 +13,7 @@ namespace {
 
 struct Arguments {
     LevelSetJobOptions job;
-    bool json = false, quiet = false, verbose = false;
+    Talk talk;
 };
 
 void add_options(CLI::App& command, Arguments& a) {
@@ -30,25 +30,19 @@ void add_options(CLI::App& command, Arguments& a) {
     command.add_option("--surface", a.job.surface_format, "format of the surfaces")
         ->check(CLI::IsMember({"stl", "vtp"}))
         ->capture_default_str();
-    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
-        ->check(CLI::Range(1, 4096))
-        ->type_name("N");
-    command.add_flag("--json", a.json, "print report.json instead of the table");
-    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
-    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    add_threads_option(command, a.job.threads);
+    add_talk_options(command, a.talk);
 }
 
 ExitCode run(const Arguments& a) {
-    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
-                                : a.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     LevelSetReport report;
     {
         ConsoleProgress progress(verbosity);
         report = run_level_set_job(a.job, progress);
     }
-    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    std::cout << (a.talk.json ? to_json(report) : to_table(report)) << std::flush;
     log_info("results are in " + a.job.output.string());
     return ExitCode::done;
 }

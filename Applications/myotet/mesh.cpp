@@ -17,7 +17,8 @@ namespace {
 
 struct Arguments {
     JobOptions job;
-    bool json = false, quiet = false, verbose = false, dry_run = false, page = true;
+    Talk talk;
+    bool dry_run = false, page = true;
 };
 
 void add_options(CLI::App& command, Arguments& a) {
@@ -71,20 +72,16 @@ void add_options(CLI::App& command, Arguments& a) {
         ->delimiter(',')
         ->type_name("KINDS");
     add_format_options(command, a.job.formats);
-    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
-        ->check(CLI::Range(1, 4096))
-        ->type_name("N");
+    add_threads_option(command, a.job.threads);
     add_page_option(command, a.page);
-    command.add_flag("--json", a.json, "print report.json instead of the table");
-    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
-    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    add_talk_options(command, a.talk);
     command.add_flag("--dry-run", a.dry_run,
                      "only forecast tetrahedra, memory and time; write nothing");
 }
 
 ExitCode print_forecast(const Arguments& a, ProgressSink& progress) {
     const Forecast f = forecast_job(a.job, progress);
-    std::cout << (a.json ? to_json(f) : to_sentence(f) + "\n") << std::flush;
+    std::cout << (a.talk.json ? to_json(f) : to_sentence(f) + "\n") << std::flush;
     return ExitCode::done;
 }
 
@@ -128,9 +125,7 @@ void check_lattice(const SizeOptions& sizes) {
 ExitCode run(const Arguments& a) {
     check_compression(a.job.compression);
     check_lattice(a.job.sizes);
-    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
-                                : a.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     RunReport report;
     {
@@ -140,7 +135,7 @@ ExitCode run(const Arguments& a) {
         add_page(a.job.output, a.page, progress);
     }
     tell_notes(report);
-    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    std::cout << (a.talk.json ? to_json(report) : to_table(report)) << std::flush;
     log_info("results are in " + a.job.output.string());
     return tell_broken_promises(report);
 }

@@ -12,7 +12,7 @@ namespace {
 
 struct Arguments {
     SurfaceJobOptions job;
-    bool json = false, quiet = false, verbose = false;
+    Talk talk;
 };
 
 void add_shape_options(CLI::App& command, SurfaceJobOptions& job) {
@@ -64,25 +64,19 @@ void add_options(CLI::App& command, Arguments& a) {
     command.add_option("--format", a.job.format, "format of the surfaces")
         ->check(CLI::IsMember({"stl", "ply", "obj", "vtp", "vtk"}))
         ->capture_default_str();
-    command.add_option("--threads", a.job.threads, "threads to use (default: all there are)")
-        ->check(CLI::Range(1, 4096))
-        ->type_name("N");
-    command.add_flag("--json", a.json, "print report.json instead of the table");
-    auto* quiet = command.add_flag("--quiet", a.quiet, "say nothing but errors and the result");
-    command.add_flag("--verbose", a.verbose, "say more about what is done")->excludes(quiet);
+    add_threads_option(command, a.job.threads);
+    add_talk_options(command, a.talk);
 }
 
 ExitCode run(const Arguments& a) {
-    const Verbosity verbosity = a.quiet     ? Verbosity::quiet
-                                : a.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     SurfaceReport report;
     {
         ConsoleProgress progress(verbosity);
         report = run_surface_job(a.job, progress);
     }
-    std::cout << (a.json ? to_json(report) : to_table(report)) << std::flush;
+    std::cout << (a.talk.json ? to_json(report) : to_table(report)) << std::flush;
     ExitCode code = ExitCode::done;
     for (const SurfaceTissue& tissue : report.tissues)
         for (const std::string& sentence : tissue.broken_promises) {
