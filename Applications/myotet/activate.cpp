@@ -23,17 +23,19 @@ struct Arguments {
 void read_cost(const std::string& cost, ActivateJobOptions& job) {
     const std::size_t hat = cost.find('^');
     const std::string kind = cost.substr(0, hat);
-    const auto exponent = hat == std::string::npos ? std::nullopt : to_number(cost.substr(hat + 1));
-    if ((kind != "activation" && kind != "stress") || !exponent || !(*exponent > 1) ||
-        !(*exponent <= 10))
+    // 0 where it is none, which no power is.
+    const double exponent =
+        hat == std::string::npos ? 0 : to_number(cost.substr(hat + 1)).value_or(0);
+    if ((kind != "activation" && kind != "stress") || !(exponent > 1) || !(exponent <= 10))
         throw UsageError("--cost: '" + cost +
                          "' is neither activation^P nor stress^P with P above 1, at most 10");
     job.criterion =
         kind == "stress" ? activation::Criterion::stress : activation::Criterion::activation;
-    job.exponent = *exponent;
+    job.exponent = exponent;
 }
 
-void add_options(CLI::App& command, Arguments& a) {
+// The inputs, and how muscles share the load.
+void add_muscle_options(CLI::App& command, Arguments& a) {
     using activation::Tendons;
     command.add_option("MODEL", a.job.model, "a skeleton with muscles (.osim)")
         ->required()
@@ -85,6 +87,10 @@ void add_options(CLI::App& command, Arguments& a) {
                     "muscles' rise and fall, a knot each S seconds; what torque they leave is told")
         ->check(kPositive)
         ->type_name("S");
+}
+
+// What else may carry a torque, which times, and what is said.
+void add_run_options(CLI::App& command, Arguments& a) {
     command
         .add_option("--reserves", a.job.reserves,
                     "actuators that help where muscles cannot: NAME=STRENGTH,... or one STRENGTH "
@@ -150,7 +156,8 @@ void add_activate(CLI::App& program, ExitCode& code) {
     CLI::App* command = program.add_subcommand(
         "activate", "activations of muscles from a moving skeleton: who pulls how much");
     const auto arguments = std::make_shared<Arguments>();
-    add_options(*command, *arguments);
+    add_muscle_options(*command, *arguments);
+    add_run_options(*command, *arguments);
     command->callback([arguments, &code] { code = run(*arguments); });
 }
 

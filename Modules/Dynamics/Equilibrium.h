@@ -43,7 +43,7 @@ struct EquilibriumSummary {
 ///   than the end needs;
 /// - where the energy curves downwards, as in buckling, as far as conjugate gradients
 ///   came and on along the curve, by a reach that grows while such steps succeed;
-/// - a step at most 90 % of the way to where the energy becomes infinite: up to three whole
+/// - a step at most 90 % of the way to where the energy becomes infinite: up to five whole
 ///   steps in a row that may raise the energy, as they do where volume hardly changes, as
 ///   long as it ends lower (watchdog); where it does not, from where they began, halved
 ///   until the energy has decreased by 1e-4 of what the slope promises (Armijo) or, where

@@ -7,28 +7,12 @@
 #include "Contraction/Words.h"
 #include "Core/AtomicFile.h"
 #include "Core/Errors.h"
+#include "MeshFiles/TextWriter.h"
 
 namespace myotet::contraction {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string xml_escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
 
 std::string title_of(const Column& column) {
     return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
@@ -68,8 +52,8 @@ void write_pvd(std::span<const TimedFile> frames, const fs::path& file) {
             throw InputError(file.string() + ": frame " + std::to_string(f) +
                              " has no file; name one");
         text += "    <DataSet timestep=\"" + shown(frame.time) + "\" group=\"\" part=\"" +
-                std::to_string(part) + "\" file=\"" + xml_escaped(frame.file.generic_string()) +
-                "\"/>\n";
+                std::to_string(part) + "\" file=\"" +
+                meshfiles::xml_escaped(frame.file.generic_string()) + "\"/>\n";
     }
     write_atomically(file, text + "  </Collection>\n</VTKFile>\n");
 }
