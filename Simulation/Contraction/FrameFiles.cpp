@@ -138,7 +138,10 @@ void FrameFiles::gather(const Moment& still, std::span<const TriMesh> bones,
         return found == part.reals.end() ? std::vector<double>() : found->second;
     };
     meshfiles::write_series(grids, times, numbers_of, options_.folder / kSeriesFile);
-    if (complete) remove_numbered(options_.folder / "frames", ".moment");
+    if (!complete) return;
+    remove_numbered(options_.folder / "frames", ".moment");
+    std::error_code not_empty;
+    fs::remove(options_.folder / "frames", not_empty);
 }
 
 std::vector<fs::path> FrameFiles::files(std::size_t frames) const {
