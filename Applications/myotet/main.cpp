@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
         add_mesh(program, code);
         add_phantom(program, code);
         add_play(program, code);
+        add_press(program, code);
         add_quality(program, code);
         add_report(program, code);
         add_surface(program, code);
