@@ -6,6 +6,7 @@
 #include "Core/Errors.h"
 #include "Pages.h"
 #include "Report/Svg.h"
+#include "ViewerScenes.h"
 
 namespace myotet::app {
 namespace fs = std::filesystem;
@@ -176,6 +177,7 @@ report::Page contract_page(const RunJson& run, const fs::path& folder) {
         .title = title.empty() ? "Contraction of " + scene.filename().string() : title,
         .lead = lead_of(run),
         .sections = {
+            view_section(contraction_scene(run, folder)),
             {"pictures", "Pictures", strip_html(run, folder)},
             {"curves", "Curves", curves_html(folder)},
             {"bodies", "Bodies", bodies_html(run)},

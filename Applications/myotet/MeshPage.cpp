@@ -5,6 +5,7 @@
 #include "Pages.h"
 #include "Report/Svg.h"
 #include "Text.h"
+#include "ViewerScenes.h"
 
 namespace myotet::app {
 namespace {
@@ -256,7 +257,8 @@ report::Page mesh_page(const RunJson& run, const MeshViews& views) {
     report::Page page{
         .title = "Meshes of " + input.filename().string(),
         .lead = lead_of(run),
-        .sections = {{"pictures", "Pictures", pictures_html(views)},
+        .sections = {view_section(mesh_scene(views)),
+                     {"pictures", "Pictures", pictures_html(views)},
                      {"tissues", "Tissues", cards_html(run, views)},
                      {"census", "In and out", census_html(run, views)},
                      {"quality", "Quality", quality_html(run, views) + shapes_html(views)}}};

@@ -12,6 +12,7 @@
 #include "MeshFiles/RawMesh.h"
 #include "MeshFiles/RawSurface.h"
 #include "MeshFiles/VtkBytes.h"
+#include "MeshFiles/VtuArrays.h"
 
 namespace myotet::meshfiles {
 namespace {
@@ -333,6 +334,27 @@ void read_piece(const VtkFile& vtk, const pugi::xml_node& piece, RawSurface& sur
     }
 }
 
+/// Numbers of all arrays of a piece's points or cells but the labels; texts are passed over.
+std::vector<NamedArray> arrays_of(const VtkFile& vtk, const pugi::xml_node& piece, const char* tag,
+                                  const char* counted) {
+    const auto count = static_cast<std::size_t>(vtk.number(piece, counted));
+    std::vector<NamedArray> arrays;
+    for (const pugi::xml_node array : piece.child(tag).children()) {
+        const std::string name = array.attribute("Name").value();
+        if (!VtkFile::is_array(array) || name == "label" ||
+            std::string_view(array.attribute("type").value()) == "String")
+            continue;
+        NamedArray named{
+            .name = name,
+            .components = static_cast<int>(vtk.number(array, "NumberOfComponents", 1)),
+            .values = vtk.reals(array)};
+        vtk.require(array, named.values.size() == count * static_cast<std::size_t>(named.components),
+                    "has not as many numbers as its components ask for");
+        arrays.push_back(std::move(named));
+    }
+    return arrays;
+}
+
 /// The frame that the field array SPACE names, or empty.
 std::string space_of(const VtkFile& vtk) {
     const auto said = vtk.texts("SPACE");
@@ -360,6 +382,21 @@ RawMesh parse_vtu(std::string_view content, const std::filesystem::path& file) {
         if (parse_value_name(said, label, name)) mesh.names[label] = name;
     }
     return mesh;
+}
+
+MeshArrays read_vtu_arrays(const std::filesystem::path& file) {
+    const std::string content = read_bytes(file);
+    const VtkFile vtk(content, file, "UnstructuredGrid");
+    const pugi::xml_node piece = vtk.grid().child("Piece");
+    vtk.require(vtk.grid(), piece && !piece.next_sibling("Piece"),
+                "has not one piece, which its arrays are read from");
+    MeshArrays arrays{.points = arrays_of(vtk, piece, "PointData", "NumberOfPoints"),
+                      .cells = arrays_of(vtk, piece, "CellData", "NumberOfCells"),
+                      .time = {}};
+    if (const pugi::xml_node time = VtkFile::find(vtk.grid().child("FieldData"), "TimeValue"))
+        if (const std::vector<double> said = vtk.reals(time); !said.empty())
+            arrays.time = said.front();
+    return arrays;
 }
 
 }  // namespace myotet::meshfiles

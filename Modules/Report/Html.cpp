@@ -89,6 +89,27 @@ std::string escaped(std::string_view text) {
     return html;
 }
 
+std::string json_text(std::string_view text) {
+    std::string json = "\"";
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        const char c = text[0];
+        if (length == 0) {
+            json += kUnknown;
+        } else if (c == '"' || c == '\\') {
+            json += {'\\', c};
+        } else if (c == '<' || (c >= 0 && c < ' ')) {
+            char code[8];
+            std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
+            json += code;
+        } else {
+            json += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return json + "\"";
+}
+
 std::string base64(std::string_view bytes) {
     constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;

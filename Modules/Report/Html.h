@@ -13,6 +13,10 @@ namespace myotet::report {
 /// that are no UTF-8 and control characters as U+FFFD, ends of lines and tabs as they are.
 [[nodiscard]] std::string escaped(std::string_view text);
 
+/// A text in quotes as JSON (RFC 8259) that may also stand in a script of a page: < as an escape;
+/// bytes that are no UTF-8 as U+FFFD.
+[[nodiscard]] std::string json_text(std::string_view text);
+
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::string_view bytes);
 

@@ -10,6 +10,8 @@ std::string to_html(const Page& page) {
     const std::string title = escaped(page.title);
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+        "style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
         title + "</title>\n<style>" + std::string(kPageStyle) +
         "</style>\n</head>\n<body>\n<header>\n<h1>" + title + "</h1>\n" + page.lead +

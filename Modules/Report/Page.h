@@ -21,7 +21,8 @@ struct Page {
 };
 
 /// The page's file: its style, its sections and the links to them, and a script with which a
-/// row of pictures becomes one picture with a slider; without it the row is scrolled.
+/// row of pictures becomes one picture with a slider; without it the row is scrolled. Browsers
+/// are told to let nothing in from elsewhere.
 [[nodiscard]] std::string to_html(const Page& page);
 
 /// One picture of a row.

@@ -88,12 +88,13 @@ color:var(--ink);cursor:pointer}
 .slides .frame:not(.shown){display:none}
 .planes{display:grid;gap:1.2rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,21rem),1fr));align-items:start}
 .planes .strip{min-width:0}
+.licences pre{white-space:pre-wrap;font-size:.8rem}
 footer{margin-top:3rem;padding-top:.8rem;border-top:1px solid var(--edge);color:var(--soft);font-size:.9rem}
 @media (max-width:40rem){body{padding:0 .8rem 2rem}h1{font-size:1.5rem}header{padding-top:1.2rem}
 .tissues{--least:8.5rem}.grid{gap:.6rem}}
 @media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#444;--edge:#bbb;--link:#000;--good:#000;--bad:#000;
 --c0:#0072b2;--c1:#d55e00;--c2:#009e73;--c3:#cc79a7;--c4:#c98a00;--c5:#3a9fd6;--c6:#000;--c7:#a89b00}
-body{max-width:none;padding:0;font-size:10pt}nav,.controls{display:none}.scroll{overflow:visible}
+body{max-width:none;padding:0;font-size:10pt}nav,.controls,.viewer,.licences,.for-screens{display:none}.scroll{overflow:visible}
 table{font-size:8pt}th,td{padding:.15rem .35rem}
 .grid{grid-template-columns:repeat(3,1fr)}.tissues{grid-template-columns:repeat(5,1fr)}.charts{grid-template-columns:1fr 1fr}
 .planes,.frames,.slides .frames{display:grid;grid-template-columns:repeat(3,1fr);overflow:visible}

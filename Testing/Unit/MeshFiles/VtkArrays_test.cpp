@@ -13,6 +13,7 @@
 
 #include "Core/Errors.h"
 #include "MeshFiles/MeshFiles.h"
+#include "MeshFiles/VtuArrays.h"
 #include "Support/TemporaryFolder.h"
 
 namespace myotet::meshfiles {
@@ -110,6 +111,40 @@ TEST(VtuArrays, SameArraysSameBytesAndNoneAsBefore) {
     write_vtu(two_tets(), {}, folder / "c.vtu");
     write_vtu(two_tets(), {}, MeshArrays{}, folder / "d.vtu");
     EXPECT_EQ(read_bytes(folder / "c.vtu"), read_bytes(folder / "d.vtu"));
+}
+
+TEST(VtuArrays, AreReadBackBitForBit) {
+    const TemporaryFolder folder;
+    write_vtu(two_tets(), {{7, "biceps"}}, moment(), folder / "a.vtu");
+    const MeshArrays back = read_vtu_arrays(folder / "a.vtu"), written = moment();
+    EXPECT_EQ(back.time, written.time);
+    const auto expect_all = [](const std::vector<NamedArray>& found,
+                               const std::vector<NamedArray>& wanted) {
+        ASSERT_EQ(found.size(), wanted.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            EXPECT_EQ(found[i].name, wanted[i].name);
+            EXPECT_EQ(found[i].components, wanted[i].components);
+            EXPECT_EQ(found[i].values, wanted[i].values);
+        }
+    };
+    expect_all(back.points, written.points);
+    expect_all(back.cells, written.cells);
+    write_vtu(two_tets(), {}, folder / "b.vtu");
+    EXPECT_FALSE(read_vtu_arrays(folder / "b.vtu").time);
+    EXPECT_TRUE(read_vtu_arrays(folder / "b.vtu").cells.empty());
+}
+
+TEST(VtuArrays, OfADamagedFileAreRefused) {
+    const TemporaryFolder folder;
+    write_vtu(two_tets(), {}, moment(), folder / "a.vtu");
+    std::string bytes = read_bytes(folder / "a.vtu");
+    const std::string components = "NumberOfComponents=\"9\"";
+    const std::size_t at = bytes.find(components);
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, components.size(), "NumberOfComponents=\"8\"");
+    testing::write_bytes(folder / "b.vtu", bytes);
+    EXPECT_THROW((void)read_vtu_arrays(folder / "b.vtu"), InputError);
+    EXPECT_THROW((void)read_vtu_arrays(folder / "gone.vtu"), IoError);
 }
 
 std::string refusal(const MeshArrays& arrays) {

@@ -28,6 +28,13 @@ TEST(Escaped, WhatIsNoTextIsReplaced) {
     EXPECT_EQ(escaped("\xE2\x82"), unknown + unknown) << "cut off";
 }
 
+TEST(JsonText, IsATextOfJsonThatMayStandInAScript) {
+    EXPECT_EQ(json_text("a \"b\" \\ c"), "\"a \\\"b\\\" \\\\ c\"");
+    EXPECT_EQ(json_text("</script>\n"), "\"\\u003c/script>\\u000a\"");
+    EXPECT_EQ(json_text("bíceps 肌"), "\"bíceps 肌\"");
+    EXPECT_EQ(json_text("\xFF"), "\"\xEF\xBF\xBD\"");
+}
+
 TEST(Base64, AsTheStandardsOwnExamples) {
     EXPECT_EQ(base64(""), "");
     EXPECT_EQ(base64("f"), "Zg==");

@@ -34,6 +34,7 @@ TEST(Page, IsWellFormedAndStandsAlone) {
     EXPECT_THAT(html, HasSubstr("alt=\"a &lt; b\""));
     EXPECT_THAT(html, HasSubstr("<figure class=\"frame shown\"><p>text</p>"));
     EXPECT_THAT(html, HasSubstr("prefers-color-scheme"));
+    EXPECT_THAT(html, HasSubstr("default-src 'none'"));
 }
 
 TEST(Markup, MistakesAreFound) {

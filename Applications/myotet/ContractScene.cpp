@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "Core/Errors.h"
+#include "MeshFiles/VtuArrays.h"
+#include "Report/ColourMap.h"
+#include "Report/Decimate.h"
+#include "Text.h"
+#include "ViewerScenes.h"
+
+namespace myotet::app {
+namespace fs = std::filesystem;
+
+namespace {
+
+using report::ViewedBody;
+using report::ViewedQuantity;
+using report::ViewedScene;
+using report::ViewedValues;
+
+constexpr std::size_t kMostMoments = 60;
+constexpr double kMostBytes = 2.4e7;  // of all moments before they are packed
+constexpr std::size_t kMostBoneTriangles = 20000;  // of one bone
+constexpr double kStressQuantile = 0.99;           // the last colour begins here
+constexpr report::Colour kBone{0.9, 0.86, 0.74};
+constexpr std::size_t kActivation = 0, kStretch = 1, kStress = 2;
+
+// Files by their frames' numbers: those of the bodies, and those of each bone.
+struct FrameFiles {
+    std::vector<std::string> bodies;
+    std::map<std::string, std::vector<std::string>> bones;
+};
+
+FrameFiles files_of(const RunJson& run) {
+    FrameFiles files;
+    for (const std::string& name : texts_of(run, "files")) {
+        const fs::path path(name);
+        if (name.starts_with("frames/") && path.extension() == ".vtu") files.bodies.push_back(name);
+        const std::string stem = path.stem().string();
+        const std::size_t last = stem.rfind('_');
+        if (name.starts_with("bones/") && path.extension() == ".vtp" && last != std::string::npos)
+            files.bones[stem.substr(0, last)].push_back(name);
+    }
+    return files;
+}
+
+const std::vector<double>& values_of(const meshfiles::MeshArrays& arrays, const char* name,
+                                     const fs::path& file) {
+    for (const meshfiles::NamedArray& array : arrays.cells)
+        if (array.name == name) return array.values;
+    throw InputError(file.string() + ": has no array '" + name +
+                     "', which each frame of a contraction has; make the results again");
+}
+
+// sqrt(3/2 s : s), s the deviator of the stress (R. von Mises 1913).
+double mises_stress(const double* stress) {
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> sigma(stress);
+    const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
+    return std::sqrt(1.5 * deviator.squaredNorm());
+}
+
+// The tetrahedra and nodes of one body of a frame.
+struct Part {
+    std::vector<std::int32_t> tets, points;
+};
+
+std::vector<Part> parts_of(const TetMesh& mesh, const std::vector<double>& body,
+                           std::size_t bodies, const fs::path& file) {
+    std::vector<Part> parts(bodies);
+    std::vector<std::vector<char>> used(bodies, std::vector<char>(mesh.points.size(), 0));
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const double b = body[t];
+        if (!(b >= 0 && b < static_cast<double>(bodies)))
+            throw InputError(file.string() + ": tetrahedron " + std::to_string(t) +
+                             " is of a body that report.json does not name; make the results "
+                             "again");
+        parts[static_cast<std::size_t>(b)].tets.push_back(static_cast<std::int32_t>(t));
+        for (const std::int32_t n : mesh.tets[t]) used[static_cast<std::size_t>(b)][n] = 1;
+    }
+    for (std::size_t b = 0; b < bodies; ++b)
+        for (std::size_t n = 0; n < mesh.points.size(); ++n)
+            if (used[b][n]) parts[b].points.push_back(static_cast<std::int32_t>(n));
+    return parts;
+}
+
+TetMesh mesh_of(const TetMesh& whole, const Part& part) {
+    TetMesh mesh;
+    std::vector<std::int32_t> now(whole.points.size(), -1);
+    for (const std::int32_t n : part.points) {
+        now[n] = static_cast<std::int32_t>(mesh.points.size());
+        mesh.points.push_back(whole.points[n]);
+    }
+    for (const std::int32_t t : part.tets) {
+        Tet corners = whole.tets[t];
+        for (std::int32_t& corner : corners) corner = now[corner];
+        mesh.tets.push_back(corners);
+    }
+    return mesh;
+}
+
+// What of a frame concerns one body.
+void add_moment(const TetMesh& mesh, const meshfiles::MeshArrays& arrays, const Part& part,
+                const fs::path& file, ViewedBody& body) {
+    std::vector<Vec3> points;
+    for (const std::int32_t n : part.points) points.push_back(mesh.points[n]);
+    body.moments.push_back(std::move(points));
+    const auto& activation = values_of(arrays, "activation", file);
+    const auto& stretch = values_of(arrays, "fiber_stretch", file);
+    const auto& fibre = values_of(arrays, "fiber", file);
+    const auto& stress = values_of(arrays, "cauchy_stress", file);
+    std::vector<double> activations, stretches, stresses;
+    std::vector<Vec3> fibres;
+    for (const std::int32_t t : part.tets) {
+        fibres.emplace_back(fibre[3 * t], fibre[3 * t + 1], fibre[3 * t + 2]);
+        const bool fibred = fibres.back() != Vec3::Zero();
+        activations.push_back(fibred ? activation[t] : NAN);
+        stretches.push_back(fibred ? stretch[t] : NAN);
+        stresses.push_back(mises_stress(&stress[9 * static_cast<std::size_t>(t)]));
+    }
+    body.fibres.push_back(std::move(fibres));
+    body.values[kActivation].times.push_back(std::move(activations));
+    body.values[kStretch].times.push_back(std::move(stretches));
+    body.values[kStress].times.push_back(std::move(stresses));
+}
+
+// Every so many of the frames, and the last.
+std::vector<std::size_t> chosen_frames(std::size_t count, const TetMesh& mesh) {
+    const double bytes = 6.0 * static_cast<double>(mesh.points.size()) +
+                         3.0 * static_cast<double>(mesh.tets.size());
+    const double most = std::clamp(kMostBytes / bytes, 2.0, static_cast<double>(kMostMoments));
+    const auto step = static_cast<std::size_t>(std::ceil(static_cast<double>(count) / most));
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < count; i += step) chosen.push_back(i);
+    if (chosen.back() + 1 != count) chosen.push_back(count - 1);
+    return chosen;
+}
+
+// The surface at rest, moved as its points move from frame to frame; false: they are not the
+// same points.
+bool add_bone(const std::string& name, const std::vector<std::string>& files,
+              const std::vector<std::size_t>& chosen, const fs::path& folder, ViewedScene& scene) {
+    using Columns = Eigen::Matrix3Xd;
+    const auto columns = [](const std::vector<Vec3>& points) {
+        Columns made(3, static_cast<Eigen::Index>(points.size()));
+        for (std::size_t p = 0; p < points.size(); ++p)
+            made.col(static_cast<Eigen::Index>(p)) = points[p];
+        return made;
+    };
+    ViewedBody bone{.name = name, .colour = kBone};
+    Columns rest;
+    for (const std::size_t frame : chosen) {
+        if (frame >= files.size()) return false;
+        const TriMesh surface = meshfiles::read_surface(file_in(folder, files[frame]));
+        const Columns now = columns(surface.points);
+        if (bone.moments.empty()) {
+            rest = now;
+            bone.surface = report::decimated(surface, kMostBoneTriangles);
+        }
+        if (now.cols() != rest.cols()) return false;
+        const Eigen::Affine3d moved(Eigen::Matrix4d(Eigen::umeyama(rest, now, false)));
+        std::vector<Vec3> points;
+        for (const Vec3& p : bone.surface.points) points.push_back(moved * p);
+        bone.moments.push_back(std::move(points));
+    }
+    scene.bodies.push_back(std::move(bone));
+    return true;
+}
+
+// The limits of colours: of all bodies at all times.
+std::vector<ViewedQuantity> limits_of(const ViewedScene& scene) {
+    std::vector<ViewedQuantity> quantities{
+        {"activation", 0, 1}, {"fibre stretch", 1, 1}, {"stress (von Mises), MPa", 0, 1}};
+    std::vector<double> stresses;
+    for (const ViewedBody& body : scene.bodies)
+        for (const ViewedValues& values : body.values)
+            for (const std::vector<double>& numbers : values.times)
+                for (const double number : numbers) {
+                    if (!std::isfinite(number)) continue;
+                    if (values.quantity == kStress) stresses.push_back(number);
+                    if (values.quantity != kStretch) continue;
+                    ViewedQuantity& stretch = quantities[kStretch];
+                    stretch.least = std::min(stretch.least, number);
+                    stretch.most = std::max(stretch.most, number);
+                }
+    if (!stresses.empty()) {
+        const auto at = stresses.begin() +
+                        static_cast<std::ptrdiff_t>(kStressQuantile *
+                                                    static_cast<double>(stresses.size() - 1));
+        std::nth_element(stresses.begin(), at, stresses.end());
+        quantities[kStress].most = *at;
+    }
+    return quantities;
+}
+
+void add_bodies(const RunJson& run, const TetMesh& first, const std::vector<Part>& parts,
+                ViewedScene& scene) {
+    for (std::size_t b = 0; b < parts.size(); ++b) {
+        ViewedBody body{.name = text_of(run.at("bodies")[b], "name"),
+                        .colour = report::distinct_colour(b),
+                        .mesh = mesh_of(first, parts[b])};
+        for (const std::size_t quantity : {kActivation, kStretch, kStress})
+            body.values.push_back(
+                {.quantity = quantity, .at = ViewedValues::At::tets, .times = {}});
+        scene.bodies.push_back(std::move(body));
+    }
+}
+
+}  // namespace
+
+ViewerScene contraction_scene(const RunJson& run, const fs::path& folder) {
+    ViewerScene made;
+    const FrameFiles files = files_of(run);
+    if (files.bodies.empty()) {
+        made.notes.emplace_back("There are no frames in .vtu files, which the 3D view is made of.");
+        return made;
+    }
+    std::vector<Part> parts;
+    std::vector<std::size_t> chosen{0};
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const fs::path file = file_in(folder, files.bodies[chosen[i]]);
+        const TetMesh mesh = meshfiles::read_vtu(file);
+        const meshfiles::MeshArrays arrays = meshfiles::read_vtu_arrays(file);
+        if (i == 0) {
+            chosen = chosen_frames(files.bodies.size(), mesh);
+            parts = parts_of(mesh, values_of(arrays, "body", file), run.at("bodies").size(), file);
+            add_bodies(run, mesh, parts, made.scene);
+        }
+        made.scene.times.push_back(arrays.time.value_or(0));
+        for (std::size_t b = 0; b < parts.size(); ++b)
+            add_moment(mesh, arrays, parts[b], file, made.scene.bodies[b]);
+    }
+    made.scene.quantities = limits_of(made.scene);
+    for (const auto& [name, of_bone] : files.bones)
+        if (!add_bone(name, of_bone, chosen, folder, made.scene))
+            made.notes.push_back("The bone " + name + " has not the same points in each frame and "
+                                 "is left out.");
+    if (chosen.size() < files.bodies.size())
+        made.notes.push_back("The view has " + std::to_string(chosen.size()) + " of " +
+                             std::to_string(files.bodies.size()) + " frames.");
+    made.notes.emplace_back(
+        "Stress has its last colour from the 99th percentile on. Bones of more than 20 000 "
+        "triangles are decimated for the view.");
+    return made;
+}
+
+}  // namespace myotet::app
