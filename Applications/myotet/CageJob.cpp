@@ -32,6 +32,7 @@ struct Wrapped {
 struct Source {
     SurfaceStock stock;
     std::vector<Wrapped> surfaces;
+    cage::Crossings crossings = cage::Crossings::refused;
 };
 
 TriMesh joined(const SurfaceStock& stock, const Tissue& tissue) {
@@ -59,6 +60,7 @@ Source read_source(const CageJobOptions& options, ProgressSink& progress) {
         return source;
     }
     source.stock = take_stock(options.source, progress);
+    source.crossings = cage::Crossings::allowed;
     for (const Tissue& tissue : source.stock.sets.tissues)
         source.surfaces.push_back({tissue, joined(source.stock, tissue)});
     return source;
@@ -83,14 +85,21 @@ std::vector<std::string> notes_of(const cage::Cage& c) {
     return notes;
 }
 
-CageTissue make_tissue(const Wrapped& wrapped, const CageJobOptions& options,
-                       ProgressSink& progress) {
+CageTissue make_tissue(const Wrapped& wrapped, cage::Crossings crossings,
+                       const CageJobOptions& options, ProgressSink& progress) {
     CageTissue made{.tissue = wrapped.tissue};
+    const std::string who = options.source.scan.input.string() + ", " + wrapped.tissue.name + ": ";
     try {
-        made.cage = cage::make_cage(wrapped.surface, options.cage, progress);
+        cage::require_closed(wrapped.surface, crossings);
     } catch (const InputError& e) {
-        throw InputError(options.source.scan.input.string() + ", " + wrapped.tissue.name + ": " +
-                         e.what() + (options.source.scan.heal ? "" : " (--heal)"));
+        throw InputError(who + e.what() + ", or let --heal guess what it encloses");
+    }
+    cage::Options how = options.cage;
+    how.crossings = cage::Crossings::allowed;  // looked for above
+    try {
+        made.cage = cage::make_cage(wrapped.surface, how, progress);
+    } catch (const InputError& e) {
+        throw InputError(who + e.what());
     }
     made.surface_points = wrapped.surface.points.size();
     made.surface_triangles = wrapped.surface.triangles.size();
@@ -177,7 +186,7 @@ CageReport run_cage_job(const CageJobOptions& options, ProgressSink& progress) {
     CageReport report{.run = describe(options, source)};
     for (const Wrapped& wrapped : source.surfaces) {
         if (report.stopped) break;
-        report.tissues.push_back(make_tissue(wrapped, options, progress));
+        report.tissues.push_back(make_tissue(wrapped, source.crossings, options, progress));
         report.stopped = progress.interrupted();
         for (const std::string& note : report.tissues.back().notes)
             progress.warn(wrapped.tissue.name + ": " + note);
