@@ -12,6 +12,7 @@ namespace myotet::app {
 /// Each adds its subcommand to the program; when the subcommand is chosen it
 /// runs and leaves its exit code in `code`.
 void add_activate(CLI::App& program, ExitCode& code);
+void add_cage(CLI::App& program, ExitCode& code);
 void add_contract(CLI::App& program, ExitCode& code);
 void add_convert(CLI::App& program, ExitCode& code);
 void add_fit(CLI::App& program, ExitCode& code);

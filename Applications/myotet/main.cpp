@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
         "breaks a promise, 5 not converged, 6 out of a resource, 130 interrupted.");
     try {
         add_activate(program, code);
+        add_cage(program, code);
         add_contract(program, code);
         add_convert(program, code);
         add_fit(program, code);

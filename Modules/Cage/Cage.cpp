@@ -22,7 +22,7 @@ namespace {
 constexpr int kRounds = 150, kIdle = 20;
 constexpr double kGain = 0.1;  // degrees
 constexpr int kCloseRounds = 60;
-constexpr double kCloseWeight = 2;
+constexpr double kCloseWeight = 40;
 // Rounded counts of tetrahedra within this of those asked for will do.
 constexpr double kCountOff = 0.03;
 constexpr int kCellSteps = 14;
@@ -132,15 +132,18 @@ std::optional<Outcome> run(const Task& task, int number, const std::function<boo
     facts.reached = farthest(walls) <= offset;
     facts.score_deg = worst_score(body);
     out.mesh = body.mesh();
+    facts.volume = volume(out.mesh);
     out.enclosure = prove_enclosure(out.mesh, task.surface, task.tree);
     facts.enclosed = out.enclosure.enclosed();
     return out;
 }
 
-bool better(const Try& a, const Try& b) {
+bool better(const Try& a, const Try& b, const Options& options) {
     if (a.enclosed != b.enclosed) return a.enclosed;
     if (a.reached != b.reached) return a.reached;
-    return a.score_deg > b.score_deg;
+    const double enough = options.angle_deg > 0 ? options.angle_deg : 90;
+    const bool both = std::min(a.score_deg, b.score_deg) >= enough;
+    return both ? a.volume < b.volume : a.score_deg > b.score_deg;
 }
 
 // The cell whose sculpture, unturned, has about as many tetrahedra as asked for.
@@ -216,7 +219,7 @@ Measures measure(const TetMesh& mesh, const TriMesh& surface, const SurfaceTree&
 
 Cage make_cage(const TriMesh& surface, const Options& options, ProgressSink& progress) {
     options.validate();
-    require_closed(surface);
+    require_closed(surface, options.crossings);
     const SurfaceTree tree(surface);
     const std::vector<Part> parts = parts_of(surface);
     const Task task{surface, tree, parts, options, choose_cell(tree, surface, options)};
@@ -238,7 +241,7 @@ Cage make_cage(const TriMesh& surface, const Options& options, ProgressSink& pro
     const Outcome* best = nullptr;
     for (const std::optional<Outcome>& outcome : outcomes) {
         if (!outcome) continue;
-        if (best == nullptr || better(outcome->facts, best->facts)) {
+        if (best == nullptr || better(outcome->facts, best->facts, options)) {
             best = &*outcome;
             cage.best = static_cast<int>(cage.tries.size());
         }

@@ -5,6 +5,7 @@
 
 #include "Cage/Bombs.h"
 #include "Cage/Enclosure.h"
+#include "Cage/Parts.h"
 #include "Core/Progress.h"
 
 namespace myotet::cage {
@@ -22,6 +23,9 @@ struct Options {
     double angle_deg = 0;
     int tries = 1;           ///< lattices: the first as it is, others turned and shifted
     std::uint64_t seed = 1;  ///< of turns and shifts
+    /// Of the surface's triangles with each other. They change nothing about enclosure, but are
+    /// most often a mistake; what level sets make has some in creases thinner than a sample.
+    Crossings crossings = Crossings::refused;
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
@@ -38,6 +42,7 @@ struct Try {
     bool reached = false;   ///< all boundary nodes are within the offset
     bool enclosed = false;  ///< proved (Enclosure.h)
     double score_deg = 0;   ///< of the worst tetrahedron (StarShape.h)
+    double volume = 0;      ///< mm^3
 };
 
 /// How good the cage is.
@@ -70,7 +75,7 @@ struct Cage {
 /// that stick brought to the surface and the worst shapes relaxed, within exact walls all the
 /// way, and enclosure proved at the end. Of several tries, which differ in how the lattice lies,
 /// that one is taken that is enclosed and within the offset and whose worst tetrahedron has the
-/// best score; of equals the first.
+/// best score; of those whose angles are enough, the one of least volume; of equals the first.
 /// Stops at an interruption with the best so far, and throws Interrupted when none is finished.
 /// Tries run on all threads; the result does not depend on their number.
 /// Throws InputError for options out of range, a surface that is not closed or meets itself,

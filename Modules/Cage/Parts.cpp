@@ -128,7 +128,7 @@ std::vector<Pair> pairs_that_meet(const TriMesh& surface) {
     return pairs;
 }
 
-void require_closed(const TriMesh& surface) {
+void require_closed(const TriMesh& surface, Crossings crossings) {
     if (surface.triangles.empty()) throw InputError("the surface has no triangles");
     for (std::size_t p = 0; p < surface.points.size(); ++p)
         if (!surface.points[p].allFinite())
@@ -138,19 +138,20 @@ void require_closed(const TriMesh& surface) {
         throw InputError("the surface is open: " + std::to_string(edges.open) +
                          " edges have one triangle alone, the first at " +
                          place(*edges.first_open) +
-                         "; a cage encloses closed surfaces, close it or have it healed");
+                         "; close it, a cage encloses closed surfaces only");
     if (edges.crowded > 0)
         throw InputError("the surface is no manifold: " + std::to_string(edges.crowded) +
                          " edges have more than two triangles, or two that disagree on their "
                          "sides, the first at " +
-                         place(*edges.first_crowded) + "; mend it or have it healed");
+                         place(*edges.first_crowded) + "; mend it");
+    if (crossings == Crossings::allowed) return;
     const std::vector<Pair> pairs = pairs_that_meet(surface);
     if (pairs.empty()) return;
     const Vec3 at = surface.points[surface.triangles[pairs.front()[0]][0]];
     throw InputError("the surface meets itself: " + std::to_string(pairs.size()) +
                      " pairs of triangles cross or touch, the first being " +
                      std::to_string(pairs.front()[0]) + " and " + std::to_string(pairs.front()[1]) +
-                     " near " + place(at) + "; mend it or have it healed");
+                     " near " + place(at) + "; mend it");
 }
 
 }  // namespace myotet::cage

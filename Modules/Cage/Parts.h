@@ -25,8 +25,9 @@ struct Part {
 
 /// Throws InputError when a surface is not one that a cage can be proved to enclose: no
 /// triangles, a coordinate that is not finite, an edge without exactly two triangles that agree
-/// on their sides (an open one is said as such), triangles that meet. Says how many and where
-/// the first lies.
-void require_closed(const TriMesh& surface);
+/// on their sides (an open one is said as such) or, unless allowed, triangles that meet. Says
+/// how many and where the first lies.
+enum class Crossings { refused, allowed };
+void require_closed(const TriMesh& surface, Crossings crossings = Crossings::refused);
 
 }  // namespace myotet::cage

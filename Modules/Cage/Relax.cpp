@@ -89,10 +89,16 @@ double Relaxation::star_score(const Vec3& x) {
 double Relaxation::energy(std::int32_t node, const Vec3& x) {
     double sum = shape_energy(x);
     if (!(sum < kInfinity) || !body_.on_boundary(node)) return sum;
-    if (within_[node] && !(options_.close > 0)) return sum;
-    const double distance = (x - walls_.nearest(node).point).norm();
-    if (!within_[node]) sum += pull_ * std::max(0.0, distance - options_.offset) / options_.cell;
-    return sum + options_.close * distance / options_.cell;
+    if (!within_[node]) {
+        const double distance = (x - walls_.nearest(node).point).norm();
+        sum += pull_ * std::max(0.0, distance - options_.offset) / options_.cell;
+    }
+    if (options_.close > 0) {
+        double room = 0;
+        for (const Corners4& c : star_.tets) room += signed_volume(c[0], c[1], c[2], c[3]);
+        sum += options_.close * room / std::pow(options_.cell, 3);
+    }
+    return sum;
 }
 
 void Relaxation::settle(std::int32_t node, const Vec3& x) {

@@ -12,7 +12,7 @@ struct RelaxOptions {
     double offset = 0;  ///< mm: boundary nodes are to be within it
     double cell = 0;    ///< mm: the scale of steps
     double goal = 60;   ///< degrees of score_deg (StarShape.h) that are enough
-    double close = 0;   ///< weight of boundary nodes' distances (in cells) beside shapes
+    double close = 0;   ///< weight of the cage's volume (in cubed cells) beside shapes
     std::uint64_t seed = 1;
 };
 
