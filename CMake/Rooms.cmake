@@ -3,10 +3,10 @@
 # CMake/CheckIncludes.cmake holds the sources to it.
 
 set(myotet_rooms Core Segmentation LevelSet Repair Surface Quality Lattice Elasticity Dynamics Meshing
-                 Cage MeshFiles Report Fibres Muscle Skeleton Activation Membrane Contraction)
+                 Cage MeshFiles Report Fibres Muscle Skeleton Activation Membrane Contraction Play)
 
 # Rooms that lie in Simulation/, the others in Modules/.
-set(myotet_simulation_rooms Fibres Muscle Skeleton Activation Membrane Contraction)
+set(myotet_simulation_rooms Fibres Muscle Skeleton Activation Membrane Contraction Play)
 
 # <room>_may_include: rooms besides itself.
 set(Core_may_include)
@@ -29,6 +29,7 @@ set(Activation_may_include Core Muscle Skeleton)
 set(Membrane_may_include Core Surface Dynamics)
 set(Contraction_may_include Core Segmentation LevelSet Repair Surface Quality Lattice Elasticity Dynamics
                             Meshing MeshFiles Fibres Muscle Skeleton Activation)
+set(Play_may_include Core Repair Elasticity Dynamics Cage MeshFiles Fibres Muscle Contraction)
 
 # Third-party headers: a pattern of the header's name, then the rooms whose
 # .cpp files may include it. "Applications" is no room, but owns some.

@@ -63,8 +63,11 @@ inline const CLI::Validator kNotNegative(
     "");
 
 /// Accepts the names of a table and gives their values; CLI11's own prints the values too.
+/// The validator's name is "{a,b}", the names.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& table) {
+    std::string words;
+    for (const auto& [name, value] : table) words += (words.empty() ? "" : ",") + name;
     return CLI::Validator(
         [table](std::string& text) -> std::string {
             if (const auto found = table.find(text); found != table.end()) {
@@ -75,7 +78,7 @@ CLI::Validator one_of(const std::map<std::string, Value>& table) {
             for (const auto& [name, value] : table) names += (names.empty() ? "" : ", ") + name;
             return "'" + text + "' is none of " + names;
         },
-        "");
+        "", "{" + words + "}");
 }
 
 }  // namespace myotet::app

@@ -19,6 +19,8 @@ void add_inspect(CLI::App& program, ExitCode& code);
 void add_levelset(CLI::App& program, ExitCode& code);
 void add_mesh(CLI::App& program, ExitCode& code);
 void add_phantom(CLI::App& program, ExitCode& code);
+void add_play(CLI::App& program, ExitCode& code);
+void add_press(CLI::App& program, ExitCode& code);
 void add_quality(CLI::App& program, ExitCode& code);
 void add_report(CLI::App& program, ExitCode& code);
 void add_surface(CLI::App& program, ExitCode& code);

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "Interrupt.h"
+#include "Report/Html.h"
 
 namespace myotet::app {
 namespace {
@@ -38,7 +40,39 @@ std::string time_left(double elapsed, double fraction) {
 
 int percent(double fraction) { return static_cast<int>(std::floor(100 * fraction)); }
 
+Telling telling_now = Telling::text;  // set once, before any thread is started
+
+std::string as_line(const nlohmann::ordered_json& event) {
+    return event.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A line as it is, on stderr for the programs that read JSON, on stdout for Slicer.
+void tell(const std::string& line) {
+    std::FILE* stream = telling_now == Telling::slicer ? stdout : stderr;
+    std::fputs((line + "\n").c_str(), stream);
+    std::fflush(stream);
+}
+
+void log(spdlog::level::level_enum level, std::string_view sentence) {
+    const auto& logger = *spdlog::default_logger();
+    if (!logger.should_log(level)) return;
+    const std::string name = level == spdlog::level::err    ? "error"
+                             : level == spdlog::level::warn ? "warning"
+                             : level == spdlog::level::info ? "info"
+                                                            : "debug";
+    if (telling_now == Telling::json) {
+        tell(as_line({{"event", "log"}, {"level", name}, {"message", sentence}}));
+    } else if (telling_now == Telling::slicer && level < spdlog::level::warn) {
+        tell(std::string(sentence));
+    } else {
+        const bool named = level >= spdlog::level::warn;
+        spdlog::log(level, "{}{}", named ? name + ": " : "", sentence);
+    }
+}
+
 }  // namespace
+
+void set_telling(Telling telling) { telling_now = telling; }
 
 void set_up_log(Verbosity verbosity) {
     auto logger = std::make_shared<spdlog::logger>(
@@ -50,13 +84,20 @@ void set_up_log(Verbosity verbosity) {
     spdlog::set_default_logger(std::move(logger));
 }
 
-void log_error(std::string_view sentence) { spdlog::error("error: {}", sentence); }
-void log_warning(std::string_view sentence) { spdlog::warn("warning: {}", sentence); }
-void log_info(std::string_view sentence) { spdlog::info("{}", sentence); }
-void log_detail(std::string_view sentence) { spdlog::debug("{}", sentence); }
+void log_error(std::string_view sentence) { log(spdlog::level::err, sentence); }
+void log_warning(std::string_view sentence) { log(spdlog::level::warn, sentence); }
+void log_info(std::string_view sentence) { log(spdlog::level::info, sentence); }
+void log_detail(std::string_view sentence) { log(spdlog::level::debug, sentence); }
+
+void log_end(int exit_code) {
+    if (telling_now == Telling::json) tell(as_line({{"event", "end"}, {"exit_code", exit_code}}));
+    if (telling_now == Telling::slicer)
+        tell("<filter-end><filter-name>myotet</filter-name></filter-end>");
+}
 
 ConsoleProgress::ConsoleProgress(Verbosity verbosity)
-    : silent_(verbosity == Verbosity::quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+    : silent_(verbosity == Verbosity::quiet),
+      terminal_(telling_now == Telling::text && ::isatty(STDERR_FILENO) == 1) {}
 
 ConsoleProgress::~ConsoleProgress() { clear_bar(); }
 
@@ -72,7 +113,9 @@ void ConsoleProgress::report(std::string_view stage, double fraction) {
         tenths_said_ = 0;
     }
     furthest_ = std::max(furthest_, fraction);  // reports may overtake one another
-    if (terminal_) {
+    if (telling_now != Telling::text) {
+        if (fresh || seconds_since(last_said_) >= kRedrawSeconds) say_event(furthest_);
+    } else if (terminal_) {
         if (fresh || seconds_since(last_said_) >= kRedrawSeconds) draw_bar(furthest_);
     } else if (fresh) {
         log_info(stage_);
@@ -99,6 +142,19 @@ void ConsoleProgress::say_line(double fraction) {
     last_said_ = Clock::now();
     log_info(stage_ + ": " + std::to_string(percent(fraction)) + " %" +
              time_left(seconds_since(stage_began_), fraction));
+}
+
+void ConsoleProgress::say_event(double fraction) {
+    last_said_ = Clock::now();
+    if (telling_now == Telling::json) {
+        tell(as_line({{"event", "progress"}, {"stage", stage_}, {"fraction", fraction}}));
+        return;
+    }
+    const auto tag = [](const std::string& name, const std::string& text) {
+        return "<filter-" + name + ">" + text + "</filter-" + name + ">";
+    };
+    tell(tag("comment", report::escaped(stage_)));
+    tell(tag("progress", std::to_string(fraction)));
 }
 
 void ConsoleProgress::clear_bar() {

@@ -35,6 +35,7 @@ Prepared prepare(const ContractJobOptions& options, ContractReport& report,
     report.scene = options.scene.string();
     report.title = made.scene.title;
     report.output = options.output.string();
+    report.options = options;
     report.fingerprint = made.model.fingerprint;
     report.end = made.scene.time.end;
     report.step = made.scene.time.step;
@@ -69,7 +70,8 @@ ContractReport run_contract_job(const ContractJobOptions& options, ProgressSink&
     Prepared prepared = prepare(options, report, progress);
     contraction::RunOptions running{.folder = options.output,
                                     .resume = options.resume,
-                                    .checkpoint_every = options.checkpoint_every};
+                                    .checkpoint_every = options.checkpoint_every,
+                                    .series = options.series};
     double drawing = 0;
     if (options.pictures && !options.resume)
         contraction::remove_numbered(options.output / "pictures", ".png");

@@ -13,7 +13,8 @@ struct ContractJobOptions {
     bool resume = false;
     int checkpoint_every = 10;  ///< steps
     int threads = 0;            ///< 0: as many as the process may use
-    bool pictures = true;       ///< drawn of each frame, and a sheet of them
+    contraction::Series series = contraction::Series::by_count;
+    bool pictures = true;  ///< drawn of each frame, and a sheet of them
 };
 
 /// A body as the report tells it.
@@ -27,6 +28,7 @@ struct ContractBody {
 /// What a run came to, or would take.
 struct ContractReport {
     std::string scene, title, output, fingerprint;
+    ContractJobOptions options;
     std::vector<ContractBody> bodies;
     contraction::RunSummary run;
     double end = 0, step = 0;  ///< s, of the scene

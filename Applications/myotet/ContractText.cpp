@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,14 @@ Json column_json(const contraction::History& history, std::size_t c) {
             {"most", most}};
 }
 
+Json options_json(const ContractJobOptions& options) {
+    constexpr std::array series{"auto", "pvd", "xdmf"};
+    return {{"resume", options.resume},
+            {"checkpoint_every", options.checkpoint_every},
+            {"series", series[static_cast<std::size_t>(options.series)]},
+            {"pictures", options.pictures}};
+}
+
 template <class... Values>
 std::string line(const char* form, Values... values) {
     char text[256];
@@ -56,6 +65,7 @@ std::string to_json(const ContractReport& report) {
                  {"units", "mm, N, MPa, s"},
                  {"version", MYOTET_VERSION},
                  {"threads", report.threads},
+                 {"options", options_json(report.options)},
                  {"end_s", report.end},
                  {"step_s", report.step},
                  {"completed", run.completed},

@@ -51,7 +51,7 @@ std::string file_stem(int layer, std::int32_t value, std::string_view name) {
 
 OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
     // Rights alone do not tell: the disk may be read-only, or not take files.
-    const std::vector<fs::path> fresh = make_folders();
+    const std::vector<fs::path> fresh = make_folders(folder_);
     const fs::path probe = folder_ / (".probe" + std::to_string(::getpid()));
     const bool taken = static_cast<bool>(std::ofstream(probe) << ' ' << std::flush);
     std::error_code ignored;
@@ -64,24 +64,24 @@ OutputFolder::~OutputFolder() {
     if (!kept_) remove_all(made_);
 }
 
-std::vector<fs::path> OutputFolder::make_folders() const {
+std::vector<fs::path> OutputFolder::make_folders(const fs::path& folder) {
     std::vector<fs::path> fresh;
     std::error_code error;
-    for (fs::path missing = folder_; !missing.empty() && !fs::exists(missing, error);
+    for (fs::path missing = folder; !missing.empty() && !fs::exists(missing, error);
          missing = missing.parent_path())
         fresh.insert(fresh.begin(), missing);
-    fs::create_directories(folder_, error);
-    if (!fs::is_directory(folder_, error)) {
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder, error)) {
         remove_all(fresh);
-        refuse(folder_, error ? "it cannot be created (" + error.message() + ")"
-                              : "it is a file, not a folder");
+        refuse(folder, error ? "it cannot be created (" + error.message() + ")"
+                             : "it is a file, not a folder");
     }
     return fresh;
 }
 
 void OutputFolder::write(const std::string& name,
                          const std::function<void(const fs::path&)>& write) {
-    const std::vector<fs::path> fresh = make_folders();
+    const std::vector<fs::path> fresh = make_folders((folder_ / name).parent_path());
     made_.insert(made_.end(), fresh.begin(), fresh.end());
     try {
         write(folder_ / name);

@@ -23,15 +23,15 @@ public:
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /// Calls write(path of `name` in the folder). Throws ResourceError when
-    /// writing fails, since the folder could be written to before.
+    /// Calls write(path of `name` in the folder); a name may have folders. Throws ResourceError
+    /// when writing fails, since the folder could be written to before.
     void write(const std::string& name,
                const std::function<void(const std::filesystem::path&)>& write);
     void keep() { kept_ = true; }
 
 private:
-    /// Creates the folder and those above it; returns the new ones, outermost first.
-    std::vector<std::filesystem::path> make_folders() const;
+    /// Creates a folder and those above it; returns the new ones, outermost first.
+    static std::vector<std::filesystem::path> make_folders(const std::filesystem::path& folder);
 
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> made_;  ///< folders and files, in order

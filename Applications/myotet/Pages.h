@@ -13,6 +13,7 @@ namespace myotet::app {
 /// Throw InputError, IoError, and what nlohmann throws for a report that is damaged.
 [[nodiscard]] report::Page mesh_page(const RunJson& run, const MeshViews& views);
 [[nodiscard]] report::Page contract_page(const RunJson& run, const std::filesystem::path& folder);
+[[nodiscard]] report::Page press_page(const RunJson& run, const std::filesystem::path& folder);
 [[nodiscard]] report::Page activate_page(const RunJson& run, const std::filesystem::path& folder);
 
 /// A chart of each kind of quantity that a contraction's history tells, with the lines of all

@@ -117,7 +117,8 @@ void write_picture(const report::Picture& picture, const fs::path& folder, std::
     report::write_png(picture, folder / picture_name(number));
 }
 
-std::vector<fs::path> write_contact_sheet(const fs::path& folder, std::size_t frames) {
+std::vector<fs::path> write_contact_sheet(const fs::path& folder, std::size_t frames,
+                                          const char* sheet) {
     std::vector<fs::path> there;
     for (std::size_t i = 0; i < frames; ++i)
         if (fs::exists(folder / picture_name(i))) there.push_back(picture_name(i));
@@ -125,8 +126,8 @@ std::vector<fs::path> write_contact_sheet(const fs::path& folder, std::size_t fr
     std::vector<report::Picture> chosen;
     for (const std::size_t i : spread(there.size(), kSheetPictures))
         chosen.push_back(report::read_png(folder / there[i]));
-    report::write_png(report::tile(chosen, kSheetColumns), folder / kSheetFile);
-    there.emplace_back(kSheetFile);
+    report::write_png(report::tile(chosen, kSheetColumns), folder / sheet);
+    there.emplace_back(sheet);
     return there;
 }
 

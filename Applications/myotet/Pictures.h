@@ -6,6 +6,9 @@
 
 namespace myotet::app {
 
+inline constexpr std::size_t kSheetPictures = 12;
+inline constexpr const char* kSheetFile = "pictures/contraction.png";
+
 /// The box around all bodies at rest and all bones wherever the scene takes them at output
 /// times, a little larger: the same for each frame, so that pictures do not jump.
 [[nodiscard]] Box box_of_run(const contraction::Scene& scene, const contraction::Model& model,
@@ -21,14 +24,11 @@ namespace myotet::app {
 void write_picture(const report::Picture& picture, const std::filesystem::path& folder,
                    std::size_t number);
 
-/// Writes pictures/contraction.png: up to kSheetPictures of the pictures of `frames` frames,
-/// the first, the last and evenly between. Pictures that are not there, of frames before a
+/// Writes a sheet, pictures/contraction.png: up to kSheetPictures of the pictures of `frames`
+/// frames, the first, the last and evenly between. Pictures that are not there, of frames before a
 /// checkpoint that were not drawn then, are left out. Returns the pictures that are there,
 /// the sheet last, relative to the folder. Throws IoError.
 [[nodiscard]] std::vector<std::filesystem::path> write_contact_sheet(
-    const std::filesystem::path& folder, std::size_t frames);
-
-inline constexpr std::size_t kSheetPictures = 12;
-inline constexpr const char* kSheetFile = "pictures/contraction.png";
+    const std::filesystem::path& folder, std::size_t frames, const char* sheet = kSheetFile);
 
 }  // namespace myotet::app

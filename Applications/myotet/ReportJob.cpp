@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-enum class Kind { mesh, contract, activate };
+enum class Kind { mesh, contract, activate, press };
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
     throw InputError(file.string() + ": " + why);
@@ -21,18 +21,19 @@ enum class Kind { mesh, contract, activate };
 
 Kind kind_of(const RunJson& run, const fs::path& file) {
     if (run.contains("scene") && run.contains("bodies")) return Kind::contract;
+    if (run.contains("organ") && run.contains("tool")) return Kind::press;
     if (run.contains("model") && run.contains("muscles")) return Kind::activate;
     if (run.contains("tissues") && run.at("tissues").is_array() && !run.at("tissues").empty() &&
         run.at("tissues").front().contains("tets"))
         return Kind::mesh;
     refuse(file,
-           "is of a run that has no page; pages are made of the results of mesh, contract and "
-           "activate");
+           "is of a run that has no page; pages are made of the results of mesh, contract, "
+           "press and activate");
 }
 
 RunJson read_run(const fs::path& file) {
     if (std::error_code failed; !fs::is_regular_file(file, failed))
-        refuse(file, "is not there; name a folder of results of mesh, contract or activate");
+        refuse(file, "is not there; name a folder of results of mesh, contract, press or activate");
     RunJson run;
     try {
         run = RunJson::parse(read_whole(file));
@@ -51,6 +52,7 @@ RunJson read_run(const fs::path& file) {
 report::Page make_page(const RunJson& run, Kind kind, const MeshViews& views,
                        const fs::path& folder) {
     if (kind == Kind::contract) return contract_page(run, folder);
+    if (kind == Kind::press) return press_page(run, folder);
     if (kind == Kind::activate) return activate_page(run, folder);
     return mesh_page(run, views);
 }

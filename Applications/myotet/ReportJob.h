@@ -12,7 +12,7 @@ inline constexpr const char* kPageFile = "report.html";
 
 /// What `myotet report` was asked for.
 struct ReportJobOptions {
-    std::filesystem::path folder;  ///< results of mesh, contract or activate
+    std::filesystem::path folder;  ///< results of mesh, contract, press or activate
     bool png = false;              ///< pictures of tissues as files, too
 };
 

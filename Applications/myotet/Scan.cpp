@@ -138,13 +138,11 @@ Scan read_label_scan(const ScanOptions& options) {
     return scan;
 }
 
-Scan read_surface_scan(const ScanOptions& options) {
+Scan one_surface(const ScanOptions& options) {
     refuse_options(label_options_given(options), options.input, "a surface, which is one tissue");
     Scan scan;
-    scan.heal = options.heal;
     scan.input_unit = options.input_unit.empty() ? "mm" : options.input_unit;
     scan.surface = meshfiles::read_surface(options.input, millimetres_per(options.input_unit));
-    if (!options.heal) scan.shells = count_outward_shells(*scan.surface);
     scan.tissues = {{0,
                      1,
                      options.input.stem().string(),
@@ -152,6 +150,13 @@ Scan read_surface_scan(const ScanOptions& options) {
                      std::abs(volume(*scan.surface)),
                      surface_area(*scan.surface),
                      {}}};
+    return scan;
+}
+
+Scan read_surface_scan(const ScanOptions& options) {
+    Scan scan = one_surface(options);
+    scan.heal = options.heal;
+    if (!options.heal) scan.shells = count_outward_shells(*scan.surface);
     // A ball has 0.09 of this; far below a paper's thickness nothing is solid.
     constexpr double kFlat = 1e-9;
     const Tissue& tissue = scan.tissues.front();
@@ -180,6 +185,17 @@ Scan read_scan(const ScanOptions& options) {
                          ": its extension is not known; labels come as .nii .nii.gz .nrrd "
                          ".seg.nrrd .mha .mhd .dcm, closed surfaces as .obj .off .stl .ply .vtp");
     Scan scan = kind == InputKind::labels ? read_label_scan(options) : read_surface_scan(options);
+    scan.input = options.input;
+    scan.sha256 = sha256_of_file(options.input);
+    return scan;
+}
+
+Scan read_plain_surface(const ScanOptions& options) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(options.input, ignored))
+        throw IoError(options.input.string() +
+                      ": there is no such file; check its name and folder");
+    Scan scan = one_surface(options);
     scan.input = options.input;
     scan.sha256 = sha256_of_file(options.input);
     return scan;

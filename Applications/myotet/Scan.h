@@ -60,6 +60,10 @@ struct Scan {
 /// InputError.
 [[nodiscard]] Scan read_scan(const ScanOptions& options);
 
+/// A surface file as it is, open or closed: one tissue, which has its name. Throws
+/// UsageError, IoError, InputError.
+[[nodiscard]] Scan read_plain_surface(const ScanOptions& options);
+
 /// Says the warnings, and what lies unlabelled between tissues.
 void tell(const Scan& scan, ProgressSink& progress);
 

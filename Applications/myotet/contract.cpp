@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "CommandLine.h"
@@ -30,6 +31,15 @@ void add_options(CLI::App& command, Arguments& a) {
                     "steps from one checkpoint to the next (default: 10)")
         ->check(CLI::Range(1, 1000000))
         ->type_name("K");
+    using contraction::Series;
+    static const std::map<std::string, Series> series = {
+        {"auto", Series::by_count}, {"pvd", Series::pvd}, {"xdmf", Series::xdmf}};
+    command
+        .add_option("--series", a.job.series,
+                    "what frames become: pvd, a .vtu each and a .pvd; xdmf, one .h5 and one .xdmf; "
+                    "auto, xdmf beyond 500 frames (default: auto)")
+        ->transform(one_of(series))
+        ->type_name("KIND");
     add_threads_option(command, a.job.threads);
     add_no_flag(command, "--no-pictures", a.job.pictures,
                 "draw no pictures of the frames (default: pictures/*.png in the folder)");

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 
 #include "CommandLine.h"
 #include "Commands.h"
 #include "Console.h"
 #include "Interrupt.h"
+#include "Wrapped.h"
 
 using namespace myotet::app;
 
@@ -27,10 +29,15 @@ int main(int argc, char** argv) {
         add_levelset(program, code);
         add_mesh(program, code);
         add_phantom(program, code);
+        add_play(program, code);
+        add_press(program, code);
         add_quality(program, code);
         add_report(program, code);
         add_surface(program, code);
-        program.parse(argc, argv);
+        add_wrapping_options(program);
+        std::vector<std::string> words = words_of(program, argc, argv);
+        std::ranges::reverse(words);  // as CLI11 takes them
+        program.parse(std::move(words));
     } catch (const CLI::Success& asked) {  // --help, --version
         return program.exit(asked);
     } catch (const CLI::ParseError& error) {
@@ -41,5 +48,6 @@ int main(int argc, char** argv) {
         log_error(ending.sentence);
         code = ending.code;
     }
+    log_end(static_cast<int>(code));
     return static_cast<int>(code);
 }

@@ -31,7 +31,9 @@ void add_report(CLI::App& program, ExitCode& code) {
     CLI::App* command = program.add_subcommand(
         "report", "one page, report.html, that shows what a folder of results holds");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("FOLDER", arguments->job.folder, "results of mesh, contract or activate")
+    command
+        ->add_option("FOLDER", arguments->job.folder,
+                     "results of mesh, contract, press or activate")
         ->required()
         ->type_name("FOLDER");
     command->add_flag("--png", arguments->job.png,

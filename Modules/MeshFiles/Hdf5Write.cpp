@@ -51,7 +51,7 @@ private:
     void* data_ = nullptr;
 };
 
-bool write_table(hid_t file, const Table& table) {
+bool write_table(hid_t file, const Table& table, hid_t stored_reals) {
     const bool real = table.integers.empty() && !table.reals.empty();
     const std::size_t count = real ? table.reals.size() : table.integers.size();
     const hsize_t shape[2] = {count / static_cast<hsize_t>(table.columns),
@@ -59,8 +59,10 @@ bool write_table(hid_t file, const Table& table) {
     Handle space(H5Screate_simple(table.columns == 1 ? 1 : 2, shape, nullptr), H5Sclose);
     Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(how, false);  // the same mesh gives the same bytes
-    Handle data(H5Dcreate2(file, table.name.c_str(), real ? H5T_IEEE_F64LE : H5T_STD_I32LE, space,
-                           H5P_DEFAULT, how, H5P_DEFAULT),
+    Handle groups(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(groups, 1);
+    Handle data(H5Dcreate2(file, table.name.c_str(), real ? stored_reals : H5T_STD_I32LE, space,
+                           groups, how, H5P_DEFAULT),
                 H5Dclose);
     if (!data.good()) return false;
     const void* from = real ? static_cast<const void*>(table.reals.data())
@@ -72,6 +74,12 @@ bool write_table(hid_t file, const Table& table) {
 }  // namespace
 
 void write_hdf5(std::span<const Table> tables, const std::filesystem::path& file) {
+    write_hdf5(tables, 0, {}, file);
+}
+
+void write_hdf5(std::span<const Table> tables, std::size_t frames,
+                const std::function<std::vector<FrameTable>(std::size_t)>& tables_of,
+                const std::filesystem::path& file) {
     write_atomically(file, [&](const std::filesystem::path& temporary) {
         const Quiet quiet;
         // The oldest format, which is the one that Hdf5Read.cpp knows.
@@ -79,7 +87,11 @@ void write_hdf5(std::span<const Table> tables, const std::filesystem::path& file
         H5Pset_libver_bounds(how, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
         Handle out(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, how), H5Fclose);
         bool good = out.good();
-        for (const Table& table : tables) good = good && write_table(out, table);
+        for (const Table& table : tables) good = good && write_table(out, table, H5T_IEEE_F64LE);
+        for (std::size_t f = 0; good && f < frames; ++f)
+            for (const FrameTable& table : tables_of(f))
+                good = good && write_table(out, {table.name, table.columns, table.reals, {}},
+                                           H5T_IEEE_F32LE);
         if (!good || !out.close())
             throw IoError(file.string() +
                           ": cannot be written; check that the folder exists, may be written to "

@@ -52,6 +52,11 @@ struct MeshArrays {
 void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& label_names,
                const MeshArrays& arrays, const std::filesystem::path& file);
 
+/// Triangles in a .vtu, as of a membrane in motion; arrays.cells are at the triangles. The
+/// rest as for tetrahedra, but there is no array `label` unless it is given. Throws the same.
+void write_vtu(const TriMesh& surface, const std::map<std::int32_t, std::string>& label_names,
+               const MeshArrays& arrays, const std::filesystem::path& file);
+
 /// Writes .vtp: triangles; field data and form as write_vtu. Throws IoError.
 void write_vtp(const TriMesh& surface, const std::map<std::int32_t, std::string>& label_names,
                const std::filesystem::path& file);

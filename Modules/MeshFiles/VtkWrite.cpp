@@ -161,6 +161,20 @@ void write_vtu(const TetMesh& mesh, const std::map<std::int32_t, std::string>& l
     write_xml<vtkXMLUnstructuredGridWriter>(*grid, file);
 }
 
+void write_vtu(const TriMesh& surface, const std::map<std::int32_t, std::string>& label_names,
+               const MeshArrays& arrays, const std::filesystem::path& file) {
+    check_arrays(arrays.points, surface.points.size(), {}, file);
+    check_arrays(arrays.cells, surface.triangles.size(), {}, file);
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(make_points(surface.points));
+    grid->SetCells(VTK_TRIANGLE, make_cells(surface.triangles));
+    add_arrays(*grid->GetPointData(), arrays.points);
+    add_arrays(*grid->GetCellData(), arrays.cells);
+    add_facts(*grid, label_names);
+    if (arrays.time) add_arrays(*grid->GetFieldData(), {{"TimeValue", 1, {*arrays.time}}});
+    write_xml<vtkXMLUnstructuredGridWriter>(*grid, file);
+}
+
 void write_vtp(const TriMesh& surface, const std::map<std::int32_t, std::string>& label_names,
                const std::filesystem::path& file) {
     vtkNew<vtkPolyData> data;

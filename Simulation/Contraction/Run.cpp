@@ -13,17 +13,24 @@ namespace {
 
 // Output times are met to this part of a step.
 constexpr double kSameTime = 1e-6;
-// Of a frame's number, at least.
-constexpr std::size_t kDigits = 4;
 
 // What the run has written, and how it goes on.
 class Recorder {
 public:
     Recorder(const Scene& scene, const Model& model, std::span<const TriMesh> bones,
              const RunOptions& options, RunSummary& summary)
-        : scene_(scene), model_(model), bones_(bones), options_(options), summary_(summary) {
+        : scene_(scene),
+          model_(model),
+          bones_(bones),
+          options_(options),
+          summary_(summary),
+          files_(files_of(scene, model, options, bones.size())) {
         summary_.history.columns = history_columns(scene, model);
     }
+
+    // Of a run that begins anew.
+    void clear() const { files_.clear(); }
+    void make_folders() const { files_.make_folders(); }
 
     // A row, and a frame when it is time for one.
     void record(const Simulation& simulation, int iterations) {
@@ -32,15 +39,6 @@ public:
         const double due = static_cast<double>(frames_.size()) * every;
         if (simulation.time() >= due - kSameTime * scene_.time.step) write_frame(simulation);
         write_history(summary_.history, options_.folder / kHistoryFile);
-    }
-    void write_collection() const {
-        std::vector<TimedFile> files;
-        for (std::size_t i = 0; i < frames_.size(); ++i) {
-            files.push_back({frames_[i], frame_name(i)});
-            for (std::size_t b = 0; b < bones_.size(); ++b)
-                files.push_back({frames_[i], bone_name(b, i)});
-        }
-        write_pvd(files, options_.folder / kCollectionFile);
     }
     void save(Checkpoint& checkpoint) const {
         for (const auto& row : summary_.history.rows)
@@ -73,43 +71,43 @@ public:
         summary_.factors = static_cast<int>(counts[6]);
         summary_.residual = checkpoint.reals_of("residual", 1)[0];
     }
+    // The frames are all that there will be for now.
+    void finish(const Simulation& simulation) {
+        summary_.frames = frames_.size();
+        if (summary_.history.rows.empty()) return;  // no equilibrium at the start
+        files_.gather(make_frame(model_, simulation), bones_, frames_, summary_.completed);
+        list_files();
+    }
     void list_files() {
         summary_.frames = frames_.size();
-        for (std::size_t i = 0; i < frames_.size(); ++i) {
-            summary_.files.push_back(frame_name(i));
-            for (std::size_t b = 0; b < bones_.size(); ++b)
-                summary_.files.push_back(bone_name(b, i));
-        }
-        if (summary_.history.rows.empty()) return;  // no equilibrium at the start
-        for (const char* name : {kCollectionFile, kHistoryFile, kCheckpointFile})
-            summary_.files.emplace_back(name);
+        for (fs::path& file : files_.files(frames_.size()))
+            summary_.files.push_back(std::move(file));
+        for (const char* name : {kHistoryFile, kCheckpointFile}) summary_.files.emplace_back(name);
     }
 
 private:
-    static std::string number(std::size_t frame) {
-        const std::string digits = std::to_string(frame);
-        return std::string(digits.size() < kDigits ? kDigits - digits.size() : 0, '0') + digits;
-    }
-    static fs::path frame_name(std::size_t frame) {
-        return fs::path("frames") / ("frame_" + number(frame) + ".vtu");
-    }
-    [[nodiscard]] fs::path bone_name(std::size_t bone, std::size_t frame) const {
-        return fs::path("bones") / (scene_.bones[bone].name + "_" + number(frame) + ".vtp");
+    static FrameFiles files_of(const Scene& scene, const Model& model, const RunOptions& options,
+                               std::size_t bones) {
+        // As many as fall due, and the first.
+        const auto frames =
+            static_cast<std::size_t>(scene.time.end / scene.output.every + kSameTime) + 1;
+        FrameFiles::Options files{.folder = options.folder,
+                                  .bones = {},
+                                  .series = decided(options.series, frames),
+                                  .fingerprint = model.fingerprint};
+        for (std::size_t b = 0; b < bones; ++b) files.bones.push_back(scene.bones[b].name);
+        return FrameFiles(std::move(files));
     }
     void write_frame(const Simulation& simulation) {
-        const std::size_t number = frames_.size();
         const Moment frame = make_frame(model_, simulation);
-        meshfiles::write_vtu(frame.mesh, frame.names, frame.arrays,
-                             options_.folder / frame_name(number));
         std::vector<TriMesh> moved(bones_.begin(), bones_.end());
         for (std::size_t b = 0; b < moved.size(); ++b) {
             const Pose pose = pose_at(scene_.bones[b].motion, simulation.time());
             for (Vec3& p : moved[b].points) p = pose(p);
-            meshfiles::write_vtp(moved[b], {}, options_.folder / bone_name(b, number));
         }
         frames_.push_back(simulation.time());
-        write_collection();
-        if (options_.watch) options_.watch(frame, moved, number);
+        files_.write(frame, moved, frames_);
+        if (options_.watch) options_.watch(frame, moved, frames_.size() - 1);
     }
 
     const Scene& scene_;
@@ -117,16 +115,9 @@ private:
     std::span<const TriMesh> bones_;
     const RunOptions& options_;
     RunSummary& summary_;
+    FrameFiles files_;
     std::vector<double> frames_;  // their times
 };
-
-void make_folders(const RunOptions& options, bool bones) {
-    std::error_code failed;
-    fs::create_directories(options.folder / "frames", failed);
-    if (!failed && bones) fs::create_directories(options.folder / "bones", failed);
-    if (failed)
-        throw IoError(options.folder.string() + ": cannot make the folder: " + failed.message());
-}
 
 void add(const StepSummary& step, RunSummary& summary) {
     summary.steps += step.steps;
@@ -151,7 +142,6 @@ public:
           progress_(progress),
           simulation_(scene, model, with_stop(options.solve, progress)),
           recorder_(scene, model, bones, options, summary_),
-          with_bones_(!bones.empty()),
           fingerprint_(model.fingerprint),
           steps_(scene_steps(scene.time)) {
         summary_.architecture = architecture(scene, model);
@@ -160,7 +150,8 @@ public:
     RunSummary run() {
         // What cannot be resumed leaves no folder.
         const int resumed = options_.resume ? resume() : 0;
-        make_folders(options_, with_bones_);
+        const bool was_complete = summary_.completed;
+        recorder_.make_folders();
         const int first = options_.resume ? resumed : start();
         for (int i = first; first > 0 && i <= steps_; ++i) {
             tell(i - 1);
@@ -182,7 +173,10 @@ public:
         }
         if (summary_.completed) summary_.message = "the end was reached";
         summary_.reached = simulation_.time();
-        recorder_.list_files();
+        if (was_complete)
+            recorder_.list_files();
+        else
+            recorder_.finish(simulation_);
         return std::move(summary_);
     }
 
@@ -190,8 +184,7 @@ private:
     void tell(int done) { progress_.report("contracting", static_cast<double>(done) / steps_); }
     // The number of the first step, 0 when there is nothing to go on from.
     int start() {
-        remove_numbered(options_.folder / "frames", ".vtu");
-        remove_numbered(options_.folder / "bones", ".vtp");
+        recorder_.clear();
         std::error_code none;
         fs::remove(options_.folder / kCheckpointFile, none);
         const StepSummary step = simulation_.begin();
@@ -233,23 +226,11 @@ private:
     RunSummary summary_;
     Simulation simulation_;
     Recorder recorder_;
-    bool with_bones_;
     std::string fingerprint_;
     int steps_;
 };
 
 }  // namespace
-
-void remove_numbered(const fs::path& folder, const std::string& extension) {
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder, none)) {
-        const std::string stem = entry.path().stem().string();
-        const std::size_t last = stem.find_last_not_of("0123456789");
-        const bool numbered =
-            last != std::string::npos && stem[last] == '_' && stem.size() - last > kDigits;
-        if (numbered && entry.path().extension() == extension) fs::remove(entry.path(), none);
-    }
-}
 
 RunSummary run_scene(const Scene& scene, Model& model, std::span<const TriMesh> bones,
                      const RunOptions& options, ProgressSink& progress) {

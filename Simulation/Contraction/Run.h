@@ -3,15 +3,16 @@
 
 #include <functional>
 
-#include "Contraction/Measure.h"
+#include "Contraction/FrameFiles.h"
 
 namespace myotet::contraction {
 
 /// How a scene is run and what is kept of it.
 struct RunOptions {
-    std::filesystem::path folder;  ///< of the results; made when it is not there
-    bool resume = false;           ///< from the folder's checkpoint
-    int checkpoint_every = 10;     ///< steps of the scene; the first one is made at 0 s
+    std::filesystem::path folder;      ///< of the results; made when it is not there
+    bool resume = false;               ///< from the folder's checkpoint
+    int checkpoint_every = 10;         ///< steps of the scene; the first one is made at 0 s
+    Series series = Series::by_count;  ///< what frames become
     SolveOptions solve;
     /// Called with each frame that was written, the bones there and then, and its number
     /// from 0; frames before a checkpoint are not told again. Empty: nobody is told.
@@ -37,7 +38,8 @@ struct RunSummary {
 /// Runs a scene and writes, as it goes,
 ///   frames/frame_0000.vtu, ...  the bodies at output times, see make_frame
 ///   bones/NAME_0000.vtp, ...    the bones there and then
-///   contraction.pvd             all of them, for ParaView
+///   contraction.pvd             all of them, for ParaView; or, of many frames, instead of these
+///   contraction.h5, .xdmf       the same in one file and its description, see FrameFiles
 ///   history.csv                 a row a step of the scene
 ///   checkpoint.myotet           where to go on from
 /// A run that finds no equilibrium stops, keeps what it has and can go on from the last
@@ -49,12 +51,7 @@ struct RunSummary {
 [[nodiscard]] RunSummary run_scene(const Scene& scene, Model& model, std::span<const TriMesh> bones,
                                    const RunOptions& options, ProgressSink& progress);
 
-/// Removes a folder's files whose names end in _ and a number of four digits or more, as
-/// those of frames do.
-void remove_numbered(const std::filesystem::path& folder, const std::string& extension);
-
 /// Names of what run_scene writes.
-inline constexpr const char* kCollectionFile = "contraction.pvd";
 inline constexpr const char* kHistoryFile = "history.csv";
 inline constexpr const char* kCheckpointFile = "checkpoint.myotet";
 

@@ -78,7 +78,7 @@ private:
         active_.springs.push_back({a, b, (levels_.rest[a] - levels_.rest[b]).norm(),
                                    share * p.stiffness, share * p.damping});
         if (finer) {  // the finer side's two edges count for mass, not this one
-            active_.hanging.push_back({levels_.midpoint(level, h), a, b, Vec3::Zero()});
+            active_.hanging.push_back({.node = levels_.midpoint(level, h), .a = a, .b = b});
             return;
         }
         for (const std::int32_t v : {a, b}) {  // [Choi05, eq. 7]
@@ -112,6 +112,7 @@ private:
                 drawn.insert(drawn.end(),
                              {{m[i], t[j], m[j]}, {t[i], m[i], m[j]}, {t[i], m[j], t[k]}});
         }
+        active_.drawn_level.resize(drawn.size(), level);
     }
 
     void share_mass() {
@@ -133,7 +134,35 @@ private:
     }
 };
 
+Mat3 cross_with(const Vec3& a) {
+    Mat3 m;
+    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    return m;
+}
+
+// Beyond, an edge points back to where it came from and no turn is the least.
+constexpr double kOpposite = 1e-6;
+
 }  // namespace
+
+Vec3 turned_offset(const Hanging& h, const Vec3& edge) {
+    const Vec3 u = edge.normalized(), w = h.edge.cross(u);
+    const double c = h.edge.dot(u);
+    if (!(1 + c > kOpposite)) return h.offset;
+    return c * h.offset + w.cross(h.offset) + w.dot(h.offset) / (1 + c) * w;
+}
+
+Mat3 turning(const Hanging& h, const Vec3& edge) {
+    const double length = edge.norm();
+    const Vec3 &o = h.offset, u = edge / length, w = h.edge.cross(u);
+    const double c = h.edge.dot(u);
+    if (!(1 + c > kOpposite)) return Mat3::Zero();
+    const Mat3 by_w = cross_with(h.edge);  // w = by_w u
+    const Mat3 by_u = o * h.edge.transpose() - cross_with(o) * by_w +
+                      (w.dot(o) * by_w + w * (o.transpose() * by_w)) / (1 + c) -
+                      w.dot(o) / ((1 + c) * (1 + c)) * w * h.edge.transpose();
+    return by_u * (Mat3::Identity() - u * u.transpose()) / length;
+}
 
 Active make_active(const Levels& levels, const Selection& selection,
                    std::span<const LevelProperties> properties) {

@@ -41,13 +41,23 @@ struct Spring {
 };
 
 /// A hanging node follows the middle of the coarse triangle's edge that it lies
-/// on, at the offset that it had when it came to hang. Its forces and its mass go
-/// half to each end: so coarse and fine side meet, and a stretched wall stays at
-/// rest across the change of levels.
+/// on, at the offset that it had when it came to hang, turned as the edge has turned
+/// since: by the least turn from its direction then, u0, to that now, u,
+///
+///     R o = c o + w x o + w (w . o) / (1 + c),   c = u0 . u,  w = u0 x u.
+///
+/// Its forces go to the ends as that place depends on them, half to each and the
+/// rest as a couple, its mass half to each: so coarse and fine side meet, and a
+/// stretched wall stays at rest across the change of levels.
 struct Hanging {
     std::int32_t node = 0, a = 0, b = 0;
-    Vec3 offset = Vec3::Zero();  ///< mm
+    Vec3 offset = Vec3::Zero();  ///< when it came to hang, mm
+    Vec3 edge = Vec3::UnitX();   ///< unit, from a to b, then
 };
+
+/// R o for the edge as it is now, (b - a); and how it depends on that.
+[[nodiscard]] Vec3 turned_offset(const Hanging& hanging, const Vec3& edge);
+[[nodiscard]] Mat3 turning(const Hanging& hanging, const Vec3& edge);
 
 /// What is computed with: the nodes and springs of the triangles in use.
 struct Active {
@@ -55,6 +65,7 @@ struct Active {
     std::vector<Hanging> hanging;     ///< from coarse to fine
     std::vector<Spring> springs;
     std::vector<Triangle> drawn;          ///< without cracks
+    std::vector<int> drawn_level;         ///< of the triangle that each is a part of
     std::vector<double> mass;             ///< |V| of the finest level, t; 0: not in use
     std::vector<double> inertia;          ///< the same with hanging nodes' given to their ends
     std::array<std::int32_t, 4> types{};  ///< triangles by number of hanging nodes, 0 to 3

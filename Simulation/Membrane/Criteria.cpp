@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Membrane/Contact.h"
+#include "Membrane/Nearest.h"
 #include "Membrane/Require.h"
 
 namespace myotet::membrane {
@@ -47,6 +49,30 @@ private:
     }
 };
 
+// Marks the corner of each triangle that a tool is near to which is nearest to it.
+void look_ahead(const Criteria& criteria, const Body& body, const Motion& motion, const Tool& tool,
+                Watch& watch) {
+    const Vec3 at = place_of(tool, body, motion);
+    const bool sphere = tool.shape == Tool::Shape::sphere;
+    const double within = tool.radius + criteria.reach;
+    for (const Triangle& t : body.active.drawn) {
+        const Vec3 &a = motion.x[t[0]], &b = motion.x[t[1]], &c = motion.x[t[2]];
+        const Vec3 middle = (a + b + c) / 3;
+        const double size = std::sqrt(std::max(
+            {(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
+        if (sphere && (middle - at).squaredNorm() > (within + size) * (within + size)) continue;
+        const Vec3 to = sphere ? nearest_of(a, b, c, at).point : at;
+        const auto nearer = [&](std::int32_t v, std::int32_t w) {
+            return sphere ? (motion.x[v] - to).squaredNorm() < (motion.x[w] - to).squaredNorm()
+                          : tool.normal.dot(motion.x[v] - motion.x[w]) < 0;
+        };
+        const std::int32_t corner = *std::min_element(t.begin(), t.end(), nearer);
+        if (!(depth_in(tool, at, sphere ? to : motion.x[corner]).depth > -criteria.reach)) continue;
+        watch.hot[corner] = 1;
+        watch.calm_from[corner] = motion.time + criteria.calm;
+    }
+}
+
 }  // namespace
 
 void Criteria::validate() const {
@@ -58,6 +84,8 @@ void Criteria::validate() const {
     positive("criteria.speed", speed, "must be above 0 mm/s: everything would be refined always");
     positive("criteria.curvature", curvature,
              "must be above 0 1/mm: everything would be refined always");
+    require(std::isfinite(reach) && reach >= 0, "criteria.reach", reach,
+            "must be a length in mm, 0 or more");
     positive("criteria.interval", interval, "must be a time in s above 0");
     require(release > 0 && release < 1, "criteria.release", release, "must be between 0 and 1");
     require(std::isfinite(calm) && calm >= 0, "criteria.calm", calm,
@@ -103,6 +131,7 @@ void look(const Criteria& criteria, const Body& body, const Motion& motion,
         watch.hot[i] = static_cast<char>(part > 1);
         if (part > criteria.release) watch.calm_from[i] = motion.time + criteria.calm;
     }
+    for (const Tool& tool : body.loads.tools) look_ahead(criteria, body, motion, tool, watch);
 }
 
 bool adapt(const Criteria& criteria, const Levels& levels, const Watch& watch, double time,

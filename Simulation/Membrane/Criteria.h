@@ -11,11 +11,14 @@ struct Criteria {
     double traction = 1e-5;   ///< force of patches and tools over the node's area, MPa
     double speed = 50;        ///< mm/s
     double curvature = 0.02;  ///< change of the mean curvature since rest, 1/mm
+    /// Besides, what a tool comes nearer to than this, mm: so what it first touches is
+    /// fine already, and its force is right from the beginning.
+    double reach = 2;
     /// What is refined stays so until all three have been below this part of their
-    /// thresholds for `calm` seconds: so nothing flickers.
+    /// thresholds, and no tool near, for `calm` seconds: so nothing flickers.
     double release = 0.5;
     double calm = 0.1;       ///< s
-    int rings = 1;           ///< of a level's triangles that are refined around those, too
+    int rings = 0;           ///< of a level's triangles that are refined around those, too
     double interval = 0.01;  ///< between two looks, s
 
     /// Throws InputError naming the field, its value and the rule.
@@ -33,7 +36,7 @@ struct Watch {
     std::vector<char> hot;          ///< |V|: whether above a threshold now
 };
 
-/// Looks at all nodes in use.
+/// Looks at all nodes and triangles in use.
 void look(const Criteria& criteria, const Body& body, const Motion& motion,
           std::span<const Vec3> pressing, Watch& watch);
 

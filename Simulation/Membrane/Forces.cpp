@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Membrane/Contact.h"
+
 namespace myotet::membrane {
 
 namespace {
-
-// Area of the wall that a tonne of it has, mm^2/t.
-double area_of_mass(const Wall& wall) { return 1 / (wall.thickness * wall.density); }
 
 // Returns what they hold, N mm; so does add_shape.
 double add_springs(const Active& active, const Motion& motion, std::vector<Vec3>& force) {
@@ -45,18 +44,6 @@ double add_shape(const Body& body, const Motion& motion, std::vector<Vec3>& forc
         held += stiffness * square;
     }
     return held / 2;
-}
-
-void add_tools(const Body& body, const Motion& motion, std::vector<Vec3>& force) {
-    const double per_mass = area_of_mass(body.wall);
-    for (const Tool& tool : body.loads.tools) {
-        const Vec3 at = place_at(tool, motion.time);
-        for (const std::int32_t i : body.active.nodes) {
-            const Depth d = depth_in(tool, at, motion.x[i]);
-            if (d.depth > 0)
-                force[i] += tool.stiffness * d.depth * per_mass * body.active.mass[i] * d.outward;
-        }
-    }
 }
 
 void add_patches(const Body& body, double time, std::vector<Vec3>& force) {
@@ -128,8 +115,10 @@ double cavity_pressure(const Body& body, double volume) {
 
 void follow(const Active& active, Motion& motion) {
     for (const Hanging& h : active.hanging) {
-        motion.x[h.node] = 0.5 * (motion.x[h.a] + motion.x[h.b]) + h.offset;
-        motion.v[h.node] = 0.5 * (motion.v[h.a] + motion.v[h.b]);
+        const Vec3 edge = motion.x[h.b] - motion.x[h.a];
+        motion.x[h.node] = 0.5 * (motion.x[h.a] + motion.x[h.b]) + turned_offset(h, edge);
+        motion.v[h.node] = 0.5 * (motion.v[h.a] + motion.v[h.b]) +
+                           turning(h, edge) * (motion.v[h.b] - motion.v[h.a]);
     }
 }
 
@@ -141,24 +130,16 @@ double find_forces(const Body& body, const Motion& motion, NodeForces& forces) {
     add_fields(body, motion, forces.external);
     for (const std::int32_t i : body.active.nodes) forces.total[i] = forces.external[i];
     const double held =
-        add_springs(body.active, motion, forces.total) + add_shape(body, motion, forces.total);
+        add_springs(body.active, motion, forces.total) + add_shape(body, motion, forces.total) +
+        add_self_contact(body.facing, body.wall, body.active, motion.x, forces.total);
     for (std::size_t k = body.active.hanging.size(); k-- > 0;) {
         const Hanging& h = body.active.hanging[k];
-        forces.total[h.a] += 0.5 * forces.total[h.node];
-        forces.total[h.b] += 0.5 * forces.total[h.node];
+        const Vec3 force = forces.total[h.node],
+                   couple = turning(h, motion.x[h.b] - motion.x[h.a]).transpose() * force;
+        forces.total[h.a] += 0.5 * force - couple;
+        forces.total[h.b] += 0.5 * force + couple;
     }
     return held;
-}
-
-Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion) {
-    const Vec3 at = place_at(tool, motion.time);
-    const double per_mass = tool.stiffness * area_of_mass(body.wall);
-    Vec3 sum = Vec3::Zero();
-    for (const std::int32_t i : body.active.nodes) {
-        const Depth d = depth_in(tool, at, motion.x[i]);
-        if (d.depth > 0) sum -= per_mass * body.active.mass[i] * d.depth * d.outward;
-    }
-    return sum;
 }
 
 double kinetic_energy(const Body& body, const Motion& motion) {
@@ -191,6 +172,15 @@ double stable_step(const Body& body) {
             stiffness[i] += 2 * s.stiffness * n * n.transpose();
             damping[i] += 2 * s.damping * n * n.transpose();
         }
+    }
+    // (u - sum w v)^2 <= 2 u^2 + 2 sum w v^2, the weights of corners being one together.
+    for (const Facing& facing : body.facing.nodes) {
+        const double most = 2 * wall.contact_stiffness * per_mass * active.mass[facing.node];
+        stiffness[facing.node].diagonal().array() += most;
+        for (std::size_t t = facing.first; t < facing.last; ++t)
+            for (const std::int32_t v : body.facing.triangles[t])
+                stiffness[v].diagonal().array() +=
+                    most / static_cast<double>(facing.last - facing.first);
     }
     for (std::size_t k = active.hanging.size(); k-- > 0;)
         for (const std::int32_t i : {active.hanging[k].a, active.hanging[k].b}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Membrane/Active.h"
 #include "Membrane/Loads.h"
+#include "Membrane/SelfContact.h"
 
 namespace myotet::membrane {
 
@@ -22,6 +22,7 @@ struct Body {
     double rest_volume = 0, drawn_rest_volume = 0;
     /// A patch each: nodes and their shares of its force.
     std::vector<std::vector<std::pair<std::int32_t, double>>> patches = {};
+    FacingWalls facing = {};  ///< what of the wall may meet itself
 };
 
 /// Finds the volumes and the patches' shares; whenever the nodes in use change.
@@ -44,15 +45,12 @@ struct NodeForces {
     std::vector<Vec3> pressing;  ///< of patches and tools
 };
 
-/// Springs [Choi05, eq. 2], shape-preserving springs [Choi05, eq. 10], drag and
-/// loads. A shape-preserving spring's constant is the wall's per area times the
+/// Springs [Choi05, eq. 2], shape-preserving springs [Choi05, eq. 10], drag, the wall
+/// against itself and loads. A shape-preserving spring's constant is the wall's per area times the
 /// node's share of the area, its mass over thickness and density.
-/// Returns what the springs of both kinds hold, N mm.
+/// Returns what the springs of both kinds and that contact hold, N mm.
 /// Cost: O(nodes and springs in use).
 double find_forces(const Body& body, const Motion& motion, NodeForces& forces);
-
-/// What the wall does to a tool, N.
-[[nodiscard]] Vec3 force_on(const Tool& tool, const Body& body, const Motion& motion);
 
 /// Of the nodes in use, N mm.
 [[nodiscard]] double kinetic_energy(const Body& body, const Motion& motion);

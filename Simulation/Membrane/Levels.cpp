@@ -6,6 +6,7 @@
 #include <string>
 
 #include "Core/Errors.h"
+#include "Membrane/Overlaps.h"
 #include "Surface/Crossings.h"
 
 namespace myotet::membrane {
@@ -38,6 +39,11 @@ void check_places(const TriMesh& surface) {
         if (!in_one_plane(surface, surface.triangles[f], surface.triangles[g]))
             throw InputError("triangles " + std::to_string(f) + " and " + std::to_string(g) +
                              " of the surface cross, but none may; mend the surface");
+    if (const auto both = overlap_in_plane(surface))
+        throw InputError("triangles " + std::to_string((*both)[0]) + " and " +
+                         std::to_string((*both)[1]) +
+                         " of the surface cover the same part of a plane, but none may; mend the "
+                         "surface");
 }
 
 void check_count(std::size_t triangles, int count) {

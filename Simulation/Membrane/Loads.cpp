@@ -25,6 +25,18 @@ double winding(const TriMesh& surface, const Vec3& point) {
     return sum / (2 * std::numbers::pi);
 }
 
+// Of rows in ascending time, straight between two, the same before and after all.
+template <class Row, class Value>
+auto along(const std::vector<Row>& rows, double time, const Value& value) {
+    if (time <= rows.front().time) return value(rows.front());
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        if (time > rows[i].time) continue;
+        const double part = (time - rows[i - 1].time) / (rows[i].time - rows[i - 1].time);
+        return decltype(value(rows[0]))((1 - part) * value(rows[i - 1]) + part * value(rows[i]));
+    }
+    return value(rows.back());
+}
+
 void check_patch(const PatchForce& patch, const Levels& levels) {
     require(std::isfinite(patch.radius) && patch.radius > 0, "patch.radius", patch.radius,
             "must be a length in mm above 0");
@@ -42,6 +54,22 @@ void check_patch(const PatchForce& patch, const Levels& levels) {
             "must reach at least one point of the surface; enlarge it or move the centre");
 }
 
+void check_forces(const Tool& tool) {
+    if (tool.forces.empty()) return;
+    require(tool.places.size() == 1, "tool.places", static_cast<double>(tool.places.size()),
+            "must be one place, where the tool begins, as forces drive it");
+    require(std::abs(tool.way.norm() - 1) < 1e-6, "tool.way", tool.way.norm(),
+            "must be of length 1");
+    for (std::size_t i = 0; i < tool.forces.size(); ++i)
+        require(std::isfinite(tool.forces[i].force) && tool.forces[i].force >= 0 &&
+                    std::isfinite(tool.forces[i].time) &&
+                    (i == 0 || tool.forces[i].time > tool.forces[i - 1].time),
+                "tool.forces", tool.forces[i].force,
+                "must be in N, 0 or more, at ascending times in s");
+    require(tool.shape == Tool::Shape::sphere || tool.normal.dot(tool.way) > 0, "tool.way",
+            tool.normal.dot(tool.way), "must lead a plane towards where its normal points");
+}
+
 void check_tool(const Tool& tool, const Levels& levels, std::size_t number) {
     const bool sphere = tool.shape == Tool::Shape::sphere;
     require(!sphere || (std::isfinite(tool.radius) && tool.radius > 0), "tool.radius", tool.radius,
@@ -55,6 +83,7 @@ void check_tool(const Tool& tool, const Levels& levels, std::size_t number) {
         require(tool.places[i].position.allFinite() && std::isfinite(tool.places[i].time) &&
                     (i == 0 || tool.places[i].time > tool.places[i - 1].time),
                 "tool.places", tool.places[i].time, "must be finite and at ascending times in s");
+    check_forces(tool);
     const Vec3 at = place_at(tool, 0);
     const std::string who = "tool " + std::to_string(number);
     if (sphere && levels.meshes[0].closed() && std::abs(winding(levels.surface(0), at)) > 0.5)
@@ -80,14 +109,51 @@ void Loads::validate(const Levels& levels) const {
 }
 
 Vec3 place_at(const Tool& tool, double time) {
-    const auto& places = tool.places;
-    if (time <= places.front().time) return places.front().position;
-    for (std::size_t i = 1; i < places.size(); ++i) {
-        if (time > places[i].time) continue;
-        const double part = (time - places[i - 1].time) / (places[i].time - places[i - 1].time);
-        return (1 - part) * places[i - 1].position + part * places[i].position;
+    return along(tool.places, time, [](const ToolPlace& p) { return p.position; });
+}
+
+double force_at(const Tool& tool, double time) {
+    if (tool.forces.empty()) return 0;
+    return along(tool.forces, time, [](const ToolForce& f) { return f.force; });
+}
+
+std::optional<double> first_touch(const Tool& tool, const Vec3& from, const Vec3& way,
+                                  std::span<const Vec3> points) {
+    std::optional<double> first;
+    for (const Vec3& x : points) {
+        const Vec3 away = x - from;
+        double far = 0;
+        if (tool.shape == Tool::Shape::plane) {
+            const double approach = tool.normal.dot(way);
+            if (!(approach > 0)) return std::nullopt;
+            far = tool.normal.dot(away) / approach;
+        } else {
+            const double ahead = away.dot(way), beside = away.squaredNorm() - ahead * ahead,
+                         room = tool.radius * tool.radius - beside;
+            if (!(room > 0)) continue;
+            far = ahead - std::sqrt(room);
+        }
+        if (!first || far < *first) first = far;
     }
-    return places.back().position;
+    return first;
+}
+
+std::optional<Vec3> first_hit(const TriMesh& surface, const Vec3& through, const Vec3& way) {
+    std::optional<double> first;
+    for (const auto& [i, j, k] : surface.triangles) {
+        const Vec3 &a = surface.points[i], ab = surface.points[j] - a, ac = surface.points[k] - a,
+                   n = ab.cross(ac);
+        const double slope = n.dot(way);
+        if (slope == 0) continue;
+        const double far = n.dot(a - through) / slope;
+        // Barycentric coordinates of the point in the triangle's plane.
+        const Vec3 in = through + far * way - a;
+        const double v = n.dot(in.cross(ac)) / n.squaredNorm(),
+                     w = n.dot(ab.cross(in)) / n.squaredNorm();
+        if (v >= 0 && w >= 0 && v + w <= 1 && (!first || far < *first)) first = far;
+    }
+    if (!first) return std::nullopt;
+    return through + *first * way;
 }
 
 Depth depth_in(const Tool& tool, const Vec3& position, const Vec3& point) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "Membrane/Wall.h"
 
@@ -24,14 +25,25 @@ struct ToolPlace {
     Vec3 position = Vec3::Zero();  ///< a sphere's centre or a point of a plane, mm
 };
 
-/// A rigid tool that presses by penalty contact, without friction.
+/// How hard a tool presses at a time.
+struct ToolForce {
+    double time = 0;   ///< s
+    double force = 0;  ///< along the tool's way, N
+};
+
+/// A rigid tool that presses by penalty contact, without friction. It goes from
+/// place to place; or it begins at its only place and goes along `way`, as far as
+/// the wall bears the force of the moment: it has no mass, and where the force is
+/// none it rests where it began or where it just touches the wall.
 struct Tool {
     enum class Shape { sphere, plane } shape = Shape::sphere;
     double radius = 0;            ///< of a sphere, mm
     Vec3 normal = Vec3::UnitZ();  ///< of a plane, out of it towards the organ
     /// In ascending time; in between along a straight line, before and after at rest.
     std::vector<ToolPlace> places;
-    double stiffness = 0.01;  ///< pressure over depth, MPa/mm
+    std::vector<ToolForce> forces;  ///< the same; none: it goes from place to place
+    Vec3 way = Vec3::UnitZ();       ///< unit; of a tool that is driven by forces
+    double stiffness = 0.01;        ///< pressure over depth, MPa/mm
 };
 
 struct Loads {
@@ -51,8 +63,23 @@ struct Loads {
     void validate(const Levels& levels) const;
 };
 
-/// Where a tool is, mm.
+/// Where a tool that goes from place to place is, or where one driven by forces
+/// begins, mm.
 [[nodiscard]] Vec3 place_at(const Tool& tool, double time);
+
+/// The force that drives a tool, N; 0 for one that goes from place to place.
+[[nodiscard]] double force_at(const Tool& tool, double time);
+
+/// How far (mm) a tool at `from` has to go along a unit vector until it first
+/// touches one of the points; negative where it lies behind. Nothing when it
+/// passes all of them.
+[[nodiscard]] std::optional<double> first_touch(const Tool& tool, const Vec3& from, const Vec3& way,
+                                                std::span<const Vec3> points);
+
+/// Where a straight line along `way` through `through` first meets a surface,
+/// coming from far away; nothing when it misses.
+[[nodiscard]] std::optional<Vec3> first_hit(const TriMesh& surface, const Vec3& through,
+                                            const Vec3& way);
 
 /// How deep a point is in the tool, mm, and the unit vector out of it; negative
 /// depth outside.

@@ -14,8 +14,8 @@ namespace {
 
 class Run {
 public:
-    Run(const TriMesh& surface, const Options& options, const Loads& loads)
-        : options_(options), loads_(loads), levels_(make_levels(surface, options.levels)) {
+    Run(Levels levels, const Options& options, const Loads& loads)
+        : options_(options), loads_(loads), levels_(std::move(levels)) {
         loads.validate(levels_);
         properties_ = level_properties(levels_, options.wall);
         fixed_ = fixed_vertices(levels_, loads);
@@ -28,14 +28,16 @@ public:
         switch_to(levels_, active_, active_, motion_);
         prepare();
         first_step_ = std::ldexp(step_, active_.finest);
+        clearance_ = least_clearance(levels_);
     }
 
     Result run(ProgressSink& progress, const Observer& observer) {
         double next_look = 0, next_line = 0;
         const double rounding = 1e-9 * options_.duration;
         while (result_.status == Status::finished) {
-            if (options_.detail == Detail::adaptive && motion_.time >= next_look - rounding) {
-                look_and_adapt();
+            if (motion_.time >= next_look - rounding) {
+                if (options_.detail == Detail::adaptive) look_and_adapt();
+                look_for_facing_walls();
                 next_look += options_.criteria.interval;
             }
             if (motion_.time >= next_line - rounding) {
@@ -44,10 +46,9 @@ public:
                 progress.report("membrane", std::min(1.0, motion_.time / options_.duration));
                 progress.check();
             }
-            if (motion_.time >= options_.duration - rounding) break;
-            double until = std::min(next_line, options_.duration);
-            if (options_.detail == Detail::adaptive) until = std::min(until, next_look);
-            go(until);
+            if (motion_.time >= options_.duration - rounding || result_.status != Status::finished)
+                break;
+            go(std::min({next_line, next_look, options_.duration}));
         }
         result_.final_surface = {motion_.x, active_.drawn};
         return std::move(result_);
@@ -65,7 +66,7 @@ private:
     Motion motion_;
     Watch watch_;
     Stepper stepper_;
-    double step_ = 0, first_step_ = 0;
+    double step_ = 0, first_step_ = 0, clearance_ = 0;
     Result result_;
 
     void check_stiffness() {
@@ -96,9 +97,27 @@ private:
         Active after = make_active(levels_, selection_, properties_);
         switch_to(levels_, active_, after, motion_);
         active_ = std::move(after);
+        body_.facing = {};  // of triangles that may be gone
         prepare();
         result_.switched_energy += std::abs(stepper_.energy() - before);
         ++result_.switches;
+    }
+
+    // Walls that are farther apart than what has moved can bring together are not looked for.
+    void look_for_facing_walls() {
+        if (options_.wall.contact_stiffness == 0) return;
+        constexpr double kSpare = 1;  // mm
+        double moved = 0, speed = 0;
+        for (const std::int32_t i : active_.nodes) {
+            moved = std::max(moved, (motion_.x[i] - levels_.rest[i]).squaredNorm());
+            speed = std::max(speed, motion_.v[i].squaredNorm());
+        }
+        const bool before = !body_.facing.nodes.empty();
+        const double margin = kSpare + 2 * options_.criteria.interval * std::sqrt(speed);
+        body_.facing = {};
+        if (2 * std::sqrt(moved) + 2 * options_.wall.thickness + margin > clearance_)
+            body_.facing = find_facing(levels_, options_.wall, active_, motion_.x, margin);
+        if (before || !body_.facing.nodes.empty()) prepare();
     }
 
     // In equal steps; one that brings energy from nowhere is halved.
@@ -127,6 +146,14 @@ private:
         }
     }
 
+    void say_sunk(std::size_t tool) {
+        if (result_.status != Status::finished) return;
+        result_.status = Status::sunk;
+        result_.message = "at " + std::to_string(motion_.time) + " s tool " + std::to_string(tool) +
+                          " is in the wall by its radius and the wall does not bear its force; "
+                          "lower the force, or give a larger sphere or a stiffer contact";
+    }
+
     void write_line(const Observer& observer) {
         Moment m;
         m.time = motion_.time;
@@ -145,9 +172,11 @@ private:
             for (const auto& [i, share] : shares) mean += share * (motion_.x[i] - levels_.rest[i]);
             m.patch_displacement.push_back(mean.norm());
         }
-        for (const Tool& tool : loads_.tools)
-            m.tool_force.push_back(force_on(tool, body_, motion_));
-        if (observer) observer(m, motion_.x, active_.drawn);
+        for (const Tool& tool : loads_.tools) {
+            m.tools.push_back(touch_of(tool, body_, motion_));
+            if (m.tools.back().sunk) say_sunk(m.tools.size() - 1);
+        }
+        if (observer) observer({m, body_, motion_, stepper_.forces()});
         result_.history.push_back(std::move(m));
     }
 };
@@ -168,8 +197,13 @@ void Options::validate() const {
 
 Result simulate(const TriMesh& surface, const Options& options, const Loads& loads,
                 ProgressSink& progress, const Observer& observer) {
+    return simulate(make_levels(surface, options.levels), options, loads, progress, observer);
+}
+
+Result simulate(Levels levels, const Options& options, const Loads& loads, ProgressSink& progress,
+                const Observer& observer) {
     options.validate();
-    return Run(surface, options, loads).run(progress, observer);
+    return Run(std::move(levels), options, loads).run(progress, observer);
 }
 
 }  // namespace myotet::membrane

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "Core/Progress.h"
+#include "Membrane/Contact.h"
 #include "Membrane/Criteria.h"
 
 namespace myotet::membrane {
@@ -36,7 +37,7 @@ struct Options {
 struct Moment {
     double time = 0;                         ///< s
     std::vector<double> patch_displacement;  ///< a patch: mean by shares of the force, mm
-    std::vector<Vec3> tool_force;            ///< a tool: what the wall does to it, N
+    std::vector<Touch> tools;                ///< a tool: where it is, and what it touches
     double largest_displacement = 0;         ///< of a node in use, mm
     double volume = 0;                       ///< of a closed cavity, mm^3
     double pressure = 0;                     ///< of the cavity, MPa
@@ -48,6 +49,7 @@ struct Moment {
 enum class Status {
     finished,
     unstable,  ///< energy came from nowhere even at the smallest step tried
+    sunk,      ///< a tool driven by forces found no resistance; see place_of
 };
 
 struct Result {
@@ -62,10 +64,16 @@ struct Result {
     double switched_energy = 0;
 };
 
-/// Receives each moment with the surface as drawn: points of the finest level and
-/// triangles without cracks.
-using Observer =
-    std::function<void(const Moment&, std::span<const Vec3>, std::span<const Triangle>)>;
+/// A moment with all that there is then; for the call alone.
+struct View {
+    const Moment& moment;
+    const Body& body;          ///< levels, nodes in use, triangles as drawn
+    const Motion& motion;      ///< points of the finest level
+    const NodeForces& forces;  ///< at the same points
+};
+
+/// Receives each moment of the history.
+using Observer = std::function<void(const View&)>;
 
 /// A hollow organ, a surface of springs, under loads [Choi05]: fourth-order
 /// Runge-Kutta, the step halved with every level in use [Choi05, eq. 9].
@@ -78,6 +86,10 @@ using Observer =
 /// loads, a wall so stiff that the stable step is below the smallest),
 /// Interrupted.
 [[nodiscard]] Result simulate(const TriMesh& surface, const Options& options, const Loads& loads,
+                              ProgressSink& progress, const Observer& observer = {});
+
+/// The same with levels at hand: options.levels is not looked at.
+[[nodiscard]] Result simulate(Levels levels, const Options& options, const Loads& loads,
                               ProgressSink& progress, const Observer& observer = {});
 
 }  // namespace myotet::membrane

@@ -42,8 +42,10 @@ private:
 void switch_to(const Levels& levels, const Active& before, Active& after, Motion& motion) {
     Placing placing(levels, before, motion);
     for (const std::int32_t v : after.nodes) placing.bring(v);
-    for (Hanging& h : after.hanging)
+    for (Hanging& h : after.hanging) {
         h.offset = motion.x[h.node] - 0.5 * (motion.x[h.a] + motion.x[h.b]);
+        h.edge = (motion.x[h.b] - motion.x[h.a]).normalized();
+    }
     follow(after, motion);
 }
 

@@ -21,6 +21,7 @@ void Wall::validate() const {
     not_negative("wall.shape_stiffness", shape_stiffness, "must be in MPa/mm, 0 or more");
     not_negative("wall.shape_damping_time", shape_damping_time, "must be a time in s, 0 or more");
     not_negative("wall.drag", drag, "must be in 1/s, 0 or more");
+    not_negative("wall.contact_stiffness", contact_stiffness, "must be in MPa/mm, 0 or more");
 }
 
 double area(const TriMesh& surface) {

@@ -21,11 +21,19 @@ struct Wall {
     double shape_stiffness = 1e-4;
     double shape_damping_time = 1e-2;  ///< their damping over their stiffness, s
     double drag = 5;                   ///< force against velocity over mass, 1/s
+    /// Of the wall against itself where it faced itself at rest, pressure over depth,
+    /// MPa/mm; 0: it passes through itself.
+    double contact_stiffness = 0.01;
     Stiffening stiffening = Stiffening::same_modulus;
 
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
 };
+
+/// Area of the wall that a tonne of it has, mm^2/t.
+[[nodiscard]] inline double area_of_mass(const Wall& wall) {
+    return 1 / (wall.thickness * wall.density);
+}
 
 /// What all nodes and springs of one level have.
 struct LevelProperties {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -54,6 +55,82 @@ inline TriMesh even_sphere(double radius, int count) {
     }
     for (Vec3& p : points) p *= radius;
     return hull_of_sphere(std::move(points));
+}
+
+/// Flips edges until none has opposite angles of more than 180 degrees together, and no
+/// edge stands twice (Lawson 1977, on a surface).
+inline void flip_to_delaunay(TriMesh& mesh) {
+    const auto cotangent = [&](std::int32_t apex, std::int32_t a, std::int32_t b) {
+        const Vec3 u = mesh.points[a] - mesh.points[apex], v = mesh.points[b] - mesh.points[apex];
+        return u.dot(v) / u.cross(v).norm();
+    };
+    for (int round = 0, changed = 1; changed && round < 100; ++round) {
+        changed = 0;
+        std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> side;  // triangle of (a, b)
+        const auto enter = [&](std::int32_t f) {
+            const Triangle& t = mesh.triangles[f];
+            for (int i = 0; i < 3; ++i) side[{t[i], t[(i + 1) % 3]}] = f;
+        };
+        const auto apex = [&](std::int32_t f, std::int32_t a, std::int32_t b) {
+            for (const std::int32_t v : mesh.triangles[f])
+                if (v != a && v != b) return v;
+            return -1;
+        };
+        for (std::size_t f = 0; f < mesh.triangles.size(); ++f) enter(static_cast<std::int32_t>(f));
+        const auto edges = side;
+        for (const auto& [edge, ignored] : edges) {
+            const auto [a, b] = edge;
+            if (a > b || !side.contains({a, b}) || !side.contains({b, a})) continue;
+            const std::int32_t f = side[{a, b}], g = side[{b, a}], c = apex(f, a, b),
+                               d = apex(g, a, b);
+            if (side.contains({c, d}) || side.contains({d, c})) continue;
+            if (!(cotangent(c, a, b) + cotangent(d, a, b) < -1e-9)) continue;
+            side.erase({a, b});
+            side.erase({b, a});
+            mesh.triangles[f] = {c, a, d};
+            mesh.triangles[g] = {c, d, b};
+            enter(f);
+            enter(g);
+            changed = 1;
+        }
+    }
+}
+
+/// A closed surface of the shape of a stomach, a J with a wide fundus and a narrow end,
+/// 150 mm high, of `count` points and so 3 count - 6 edges, spread evenly: a sphere's
+/// poles are drawn out along an arc. Its front is at -y.
+inline TriMesh stomach_like(int count) {
+    const auto place = [](const Vec3& q) {
+        const double s = 0.5 * (1 - q.z());  // from the fundus to the pylorus
+        const double turn = -0.5 + 3.1 * s * s, bend = 62 - 8 * s;
+        const Vec3 centre(-bend * std::cos(turn), 0, -bend * std::sin(turn) - 40 * s);
+        const Vec3 out(-std::cos(turn), 0, -std::sin(turn));
+        const double thick = 46 - 26 * s;
+        return Vec3(centre + thick * (q.x() * out - q.y() * Vec3::UnitY()));
+    };
+    std::vector<Vec3> q = even_sphere(1, count).points, at(count);
+    for (int round = 0; round < 400; ++round) {
+        for (int i = 0; i < count; ++i) at[i] = place(q[i]);
+        for (int i = 1; i < count; ++i) {
+            Vec3 push = Vec3::Zero();
+            for (int j = 0; j < count; ++j)
+                if (i != j) push += (at[i] - at[j]) / std::pow((at[i] - at[j]).norm(), 5);
+            constexpr double kStep = 1e-5;
+            const Vec3 u = q[i].unitOrthogonal(), v = q[i].cross(u);
+            Eigen::Matrix<double, 3, 2> slope;
+            slope << (place((q[i] + kStep * u).normalized()) - at[i]) / kStep,
+                (place((q[i] + kStep * v).normalized()) - at[i]) / kStep;
+            const Eigen::Matrix2d square = slope.transpose() * slope;
+            const Vec3 step = 2e4 / std::pow(count, 0.5) * push;
+            const Eigen::Vector2d along = square.ldlt().solve(slope.transpose() * step);
+            const double size = std::min(1.0, 0.05 / along.norm());
+            q[i] = (q[i] + size * (along[0] * u + along[1] * v)).normalized();
+        }
+    }
+    TriMesh mesh = hull_of_sphere(q);
+    for (Vec3& p : mesh.points) p = place(p);
+    flip_to_delaunay(mesh);
+    return mesh;
 }
 
 /// The icosahedron's triangles in four, `times` over, every point on the sphere.

@@ -71,6 +71,37 @@ TEST(Resume, GoesOnWithTheSameBytesOnAnyNumberOfThreads) {
     }
 }
 
+TEST(Resume, OfASeriesInOneFileTheSame) {
+    const LivelyFolder block;
+    const RunOptions once{.checkpoint_every = 2, .series = Series::xdmf};
+    Loaded whole = block.load(lively("quasi-static"));
+    const RunSummary at_once = block.run(whole, once);
+    const auto expected = contents(block.out());
+    EXPECT_EQ(at_once.files, (std::vector<fs::path>{"contraction.h5", "contraction.xdmf",
+                                                    "history.csv", "checkpoint.myotet"}));
+    EXPECT_EQ(expected.size(), 4u);  // no parts are left
+
+    const fs::path again = block.folder / "again";
+    Loaded first = block.load(lively("quasi-static"));
+    StopAfter stop(0.625);
+    RunOptions run{.folder = again, .checkpoint_every = 2, .series = Series::xdmf};
+    EXPECT_TRUE(block.run(first, run, stop).interrupted);
+    EXPECT_TRUE(fs::exists(again / "contraction.xdmf"));  // what there is can be looked at
+    run.resume = true;
+    for (int finished = 0; finished < 2; ++finished) {
+        Loaded second = block.load(lively("quasi-static"));
+        (void)block.run(second, run);
+        EXPECT_TRUE(contents(again) == expected);
+    }
+}
+
+TEST(Resume, ManyFramesBecomeASeriesInOneFile) {
+    EXPECT_EQ(decided(Series::by_count, kMostPvdFrames), Series::pvd);
+    EXPECT_EQ(decided(Series::by_count, kMostPvdFrames + 1), Series::xdmf);
+    EXPECT_EQ(decided(Series::pvd, 1'000'000), Series::pvd);
+    EXPECT_EQ(decided(Series::xdmf, 1), Series::xdmf);
+}
+
 TEST(Resume, OfAFinishedRunChangesNothing) {
     const BlockFolder block;
     Loaded loaded = block.load(BlockText{});

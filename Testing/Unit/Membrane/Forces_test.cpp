@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Membrane/Forces.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "Membrane/Contact.h"
 #include "Membrane/Switch.h"
 #include "Support/MembraneShapes.h"
 
@@ -93,6 +92,29 @@ TEST(MembraneForces, AreMinusTheGradientOfEnergy) {
     }
 }
 
+// Hanging nodes turn with their edges: a turn of the whole leaves springs as they are, but for
+// turns about the edges themselves.
+TEST(MembraneForces, HangingNodesTurnWithTheirEdges) {
+    Case c;
+    ASSERT_FALSE(c.active.hanging.empty());
+    const Hanging& h = c.active.hanging.front();
+    const Vec3 edge = c.motion.x[h.b] - c.motion.x[h.a];
+    EXPECT_LT((turned_offset(h, 3 * edge) - h.offset).norm(), 1e-14);
+    const Vec3 across = edge.unitOrthogonal();
+    const Mat3 turn = Eigen::AngleAxisd(1.1, across).toRotationMatrix();
+    EXPECT_LT((turned_offset(h, turn * edge) - turn * h.offset).norm(), 1e-12);
+    // How the offset depends on the edge, by central differences.
+    const Vec3 now = turn * edge + Vec3(0.3, -0.2, 0.4);
+    constexpr double kStep = 1e-5;
+    Mat3 slope;
+    for (int axis = 0; axis < 3; ++axis)
+        slope.col(axis) = (turned_offset(h, now + kStep * Vec3::Unit(axis)) -
+                           turned_offset(h, now - kStep * Vec3::Unit(axis))) /
+                          (2 * kStep);
+    EXPECT_LT((turning(h, now) - slope).norm(), 1e-8);
+    EXPECT_GT(slope.norm(), 1e-4);
+}
+
 TEST(MembraneForces, SpringsNeitherPushNorTurnTheWhole) {
     Case c;
     c.wall.shape_stiffness = 0;
@@ -162,6 +184,6 @@ TEST(MembraneForces, ToolTouchesWhatIsInIt) {
     Case c;
     c.loads.tools = {tool};
     c.motion.time = 0.9;
-    const Vec3 force = force_on(c.loads.tools[0], c.body, c.motion);
+    const Vec3 force = touch_of(c.loads.tools[0], c.body, c.motion).force;
     EXPECT_GT(force.z(), 0);
 }

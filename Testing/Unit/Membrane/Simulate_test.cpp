@@ -139,7 +139,7 @@ TEST(Simulate, ToolPressesAndFeelsTheWall) {
     loads.tools[0].places.push_back({0.4, Vec3(0, 0, 52)});
     const Result r = simulate(even_sphere(50, 114), options, loads, quiet);
     EXPECT_EQ(r.status, Status::finished);
-    EXPECT_GT(r.history.back().tool_force[0].z(), 0.01);
+    EXPECT_GT(r.history.back().tools[0].force.z(), 0.01);
     EXPECT_GT(r.history.back().largest_displacement, 3);
     EXPECT_GT(r.history.back().nodes, 114U);
 }

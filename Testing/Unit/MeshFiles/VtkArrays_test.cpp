@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -67,6 +68,29 @@ TEST(VtuArrays, VtkReadsThemBackBitForBit) {
     expect_same(*grid.GetFieldData(), {"TimeValue", 1, {0.35}});
     EXPECT_NE(grid.GetCellData()->GetAbstractArray("label"), nullptr);
     EXPECT_NE(grid.GetFieldData()->GetAbstractArray("SPACE"), nullptr);
+}
+
+TEST(VtuArrays, OfTrianglesToo) {
+    const TemporaryFolder folder;
+    const std::string file = folder / "wall.vtu";
+    const TriMesh wall{two_tets().points, {{0, 1, 2}, {0, 2, 4}, {1, 2, 3}}};
+    MeshArrays arrays;
+    arrays.points = {{"displacement", 3, numbers(15)}};
+    arrays.cells = {{"label", 1, {4, 4, 4}}, {"level", 1, {0, 1, 1}}};
+    arrays.time = 0.5;
+    write_vtu(wall, {{4, "stomach"}}, arrays, file);
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    vtkUnstructuredGrid& grid = *reader->GetOutput();
+    ASSERT_EQ(grid.GetNumberOfCells(), 3);
+    EXPECT_EQ(grid.GetCellType(1), VTK_TRIANGLE);
+    EXPECT_EQ(grid.GetCell(1)->GetPointId(2), 4);
+    expect_same(*grid.GetPointData(), arrays.points[0]);
+    for (const NamedArray& array : arrays.cells) expect_same(*grid.GetCellData(), array);
+    expect_same(*grid.GetFieldData(), {"TimeValue", 1, {0.5}});
+    arrays.cells[1].values.pop_back();
+    EXPECT_THROW(write_vtu(wall, {}, arrays, file), MeshError);
 }
 
 TEST(VtuArrays, TheMeshIsReadAsWithoutThem) {

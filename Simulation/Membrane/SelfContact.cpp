@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Membrane/SelfContact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "Membrane/Nearest.h"
+
+namespace myotet::membrane {
+
+namespace {
+
+constexpr double kFacing = -0.2;  // cosine of normals that face each other
+constexpr double kKeptGap = 0.9;  // of the distance at rest
+
+std::vector<Vec3> normals_of(const Active& active, std::span<const Vec3> x) {
+    std::vector<Vec3> normal(x.size(), Vec3::Zero());
+    for (const auto& [a, b, c] : active.drawn) {
+        const Vec3 n = (x[b] - x[a]).cross(x[c] - x[a]);
+        for (const std::int32_t v : {a, b, c}) normal[v] += n;
+    }
+    for (const std::int32_t v : active.nodes) normal[v].stableNormalize();
+    return normal;
+}
+
+Vec3 normal_of(const Triangle& t, std::span<const Vec3> x) {
+    return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).stableNormalized();
+}
+
+// From the triangle's nearest point to a node; positive on the side told.
+struct Away {
+    Vec3 direction;
+    double distance;
+    std::array<double, 3> weights;
+};
+Away away_from(const Triangle& t, const Vec3& node, double side, std::span<const Vec3> x) {
+    const Nearest near = nearest_of(x[t[0]], x[t[1]], x[t[2]], node);
+    const Vec3 line = node - near.point, n = side * -normal_of(t, x);
+    const double far = line.norm();
+    const double sign = line.dot(n) < 0 ? -1 : 1;
+    return {far > 0 ? Vec3(sign / far * line) : n, sign * far, near.weights};
+}
+
+// A drawn triangle as a ball about its middle.
+struct Part {
+    Triangle corners;
+    Vec3 middle, normal, rest_normal;
+    double radius;
+};
+
+// By their middles' x.
+std::vector<Part> parts_of(const Levels& levels, const Active& active, std::span<const Vec3> x) {
+    std::vector<Part> parts;
+    for (const Triangle& t : active.drawn) {
+        const Vec3 middle = (x[t[0]] + x[t[1]] + x[t[2]]) / 3;
+        double square = 0;
+        for (const std::int32_t v : t) square = std::max(square, (x[v] - middle).squaredNorm());
+        parts.push_back({t, middle, normal_of(t, x), normal_of(t, levels.rest), std::sqrt(square)});
+    }
+    std::ranges::stable_sort(parts, {}, [](const Part& part) { return part.middle.x(); });
+    return parts;
+}
+
+// Whether a part faces a node of these normals, and is nearer to it than `reach`.
+bool faces(const Part& part, const Vec3& at, const Vec3& normal, const Vec3& rest, double reach) {
+    const double far = reach + part.radius;
+    return (part.middle - at).squaredNorm() < far * far && normal.dot(part.normal) < kFacing &&
+           rest.dot(part.rest_normal) < kFacing;
+}
+
+// On which side of a part a node is at rest, and the gap that is kept.
+void settle(const Part& part, const Levels& levels, const Wall& wall, Facing& facing) {
+    const auto& [a, b, c] = part.corners;
+    const std::vector<Vec3>& rest = levels.rest;
+    const Vec3 line =
+        rest[facing.node] - nearest_of(rest[a], rest[b], rest[c], rest[facing.node]).point;
+    facing.side = line.dot(part.rest_normal) < 0 ? 1 : -1;
+    facing.gap = std::min(facing.side > 0 ? 2 * wall.thickness : 0.0, kKeptGap * line.norm());
+}
+
+}  // namespace
+
+FacingWalls find_facing(const Levels& levels, const Wall& wall, const Active& active,
+                        std::span<const Vec3> x, double margin) {
+    const double reach = 2 * wall.thickness + margin;
+    const std::vector<Vec3> now = normals_of(active, x), rest = normals_of(active, levels.rest);
+    const std::vector<Part> parts = parts_of(levels, active, x);
+    double widest = 0;
+    for (const Part& part : parts) widest = std::max(widest, part.radius);
+    FacingWalls facing;
+    for (const std::int32_t v : active.nodes) {
+        if (!(active.inertia[v] > 0)) continue;
+        Facing found{.node = v, .first = facing.triangles.size()};
+        double nearest = reach;
+        const double low = x[v].x() - reach - widest, high = x[v].x() + reach + widest;
+        for (auto part = std::ranges::lower_bound(parts, low, {},
+                                                  [](const Part& p) { return p.middle.x(); });
+             part != parts.end() && part->middle.x() <= high; ++part) {
+            if (!faces(*part, x[v], now[v], rest[v], reach)) continue;
+            const auto& [a, b, c] = part->corners;
+            if (a == v || b == v || c == v) continue;
+            const double far = (nearest_of(x[a], x[b], x[c], x[v]).point - x[v]).norm();
+            if (!(far < reach)) continue;
+            facing.triangles.push_back(part->corners);
+            if (!(far < nearest)) continue;
+            nearest = far;
+            settle(*part, levels, wall, found);
+        }
+        found.last = facing.triangles.size();
+        if (found.last > found.first) facing.nodes.push_back(found);
+    }
+    return facing;
+}
+
+double least_clearance(const Levels& levels) {
+    constexpr double kMostPairs = 4e6, kBulge = 0.1;  // of an edge, between two levels
+    const TriMesh given = levels.surface(0);
+    if (static_cast<double>(given.points.size()) * static_cast<double>(given.triangles.size()) >
+        kMostPairs)
+        return 0;
+    std::vector<Vec3> normal(given.points.size(), Vec3::Zero());
+    double longest = 0;
+    for (const auto& [a, b, c] : given.triangles) {
+        const Vec3 n = (given.points[b] - given.points[a]).cross(given.points[c] - given.points[a]);
+        for (const std::int32_t v : {a, b, c}) normal[v] += n;
+        longest = std::max(longest, (given.points[b] - given.points[a]).norm());
+    }
+    double least = HUGE_VAL;
+    for (const Triangle& t : given.triangles) {
+        const auto& [a, b, c] = t;
+        const Vec3 n = normal_of(t, given.points);
+        const Vec3 middle = (given.points[a] + given.points[b] + given.points[c]) / 3;
+        for (std::size_t v = 0; v < given.points.size(); ++v) {
+            const Vec3& x = given.points[v];
+            if (!((x - middle).norm() < least + longest) ||
+                !(normal[v].dot(n) < kFacing * normal[v].norm()))
+                continue;
+            least = std::min(
+                least, (nearest_of(given.points[a], given.points[b], given.points[c], x).point - x)
+                           .norm());
+        }
+    }
+    return std::max(0.0, least - 2 * kBulge * longest);
+}
+
+double add_self_contact(const FacingWalls& facing, const Wall& wall, const Active& active,
+                        std::span<const Vec3> x, std::vector<Vec3>& force) {
+    double held = 0;
+    for (const Facing& f : facing.nodes) {
+        const Triangle* nearest = nullptr;
+        double least = 0;
+        for (std::size_t i = f.first; i < f.last; ++i) {
+            const Triangle& t = facing.triangles[i];
+            const double far =
+                (nearest_of(x[t[0]], x[t[1]], x[t[2]], x[f.node]).point - x[f.node]).squaredNorm();
+            if (nearest && !(far < least)) continue;
+            nearest = &t;
+            least = far;
+        }
+        const Away away = away_from(*nearest, x[f.node], f.side, x);
+        const double depth = f.gap - away.distance;
+        if (!(depth > 0)) continue;
+        const double stiffness = wall.contact_stiffness * area_of_mass(wall) * active.mass[f.node];
+        const Vec3 push = stiffness * depth * away.direction;
+        force[f.node] += push;
+        for (int i = 0; i < 3; ++i) force[(*nearest)[i]] -= away.weights[i] * push;
+        held += stiffness * depth * depth;
+    }
+    return held / 2;
+}
+
+}  // namespace myotet::membrane
