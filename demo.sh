@@ -24,10 +24,11 @@ Done. The scan of the arm phantom is results/arm.nii.gz, with the names of its
 tissues in a table beside it. Its meshes are in the folder results/arm:
   <label>_<name>.vtu   the tissue in tetrahedra, for simulation and ParaView
   <label>_<name>.stl   its surface, for 3D Slicer, MeshLab or Blender
-  report.html          all of it on one page: open it in a browser
+  report.html          all of it on one page, turned and cut open in 3D: open it in a
+                       browser
   report.json          what each mesh is worth
 Its biceps and triceps, which contract and relax, are in results/isometric:
-  report.html                frames and curves on one page
+  report.html                a 3D view over time, frames and curves on one page
   pictures/contraction.png   the whole of it on one sheet
   contraction.pvd            each moment, for ParaView
   history.csv                forces, lengths, volumes

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source CMake/install-packages.sh
 
-install_packages
+install_packages with_browser
 cmake --preset release
 cmake --build --preset release
 ctest --preset release --no-tests=error

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sourced by demo.sh and test.sh. Installs the Debian packages that a build
 # needs; does nothing, and asks for no rights, when all of them are there.
+# Node.js, npm and Chromium may come from elsewhere: only those that are no
+# commands are installed. npm fetches the packages of the pages' 3D view.
 
 myotet_packages=(
   g++ cmake ninja-build ccache
@@ -16,6 +18,7 @@ myotet_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 
+# install_packages [with_browser]: Chromium is for tests alone.
 install_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     echo "This script installs Debian packages, but apt-get is not here. Install what" >&2
@@ -27,6 +30,11 @@ install_packages() {
     dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
       missing+=("$package")
   done
+  command -v node >/dev/null || missing+=(nodejs)
+  command -v npm >/dev/null || missing+=(npm)
+  if [[ "${1-}" == with_browser ]]; then
+    command -v chromium >/dev/null || missing+=(chromium)
+  fi
   if ((${#missing[@]} == 0)); then return 0; fi
 
   echo "Installing ${missing[*]}"

@@ -177,7 +177,7 @@ report::Page contract_page(const RunJson& run, const fs::path& folder) {
         .title = title.empty() ? "Contraction of " + scene.filename().string() : title,
         .lead = lead_of(run),
         .sections = {
-            view_section(contraction_scene(run, folder)),
+            {"view", "3D view", report::viewer_html(contraction_scene(run, folder))},
             {"pictures", "Pictures", strip_html(run, folder)},
             {"curves", "Curves", curves_html(folder)},
             {"bodies", "Bodies", bodies_html(run)},

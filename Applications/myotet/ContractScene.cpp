@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "Core/Errors.h"
@@ -21,9 +22,9 @@ using report::ViewedScene;
 using report::ViewedValues;
 
 constexpr std::size_t kMostMoments = 60;
-constexpr double kMostBytes = 2.4e7;  // of all moments before they are packed
+constexpr double kMostBytes = 2.4e7;               // of all moments before they are packed
 constexpr std::size_t kMostBoneTriangles = 20000;  // of one bone
-constexpr double kStressQuantile = 0.99;           // the last colour begins here
+constexpr double kQuantile = 0.99;                 // the last colour begins here
 constexpr report::Colour kBone{0.9, 0.86, 0.74};
 constexpr std::size_t kActivation = 0, kStretch = 1, kStress = 2;
 
@@ -66,8 +67,8 @@ struct Part {
     std::vector<std::int32_t> tets, points;
 };
 
-std::vector<Part> parts_of(const TetMesh& mesh, const std::vector<double>& body,
-                           std::size_t bodies, const fs::path& file) {
+std::vector<Part> parts_of(const TetMesh& mesh, const std::vector<double>& body, std::size_t bodies,
+                           const fs::path& file) {
     std::vector<Part> parts(bodies);
     std::vector<std::vector<char>> used(bodies, std::vector<char>(mesh.points.size(), 0));
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -127,8 +128,8 @@ void add_moment(const TetMesh& mesh, const meshfiles::MeshArrays& arrays, const 
 
 // Every so many of the frames, and the last.
 std::vector<std::size_t> chosen_frames(std::size_t count, const TetMesh& mesh) {
-    const double bytes = 6.0 * static_cast<double>(mesh.points.size()) +
-                         3.0 * static_cast<double>(mesh.tets.size());
+    const double bytes =
+        6.0 * static_cast<double>(mesh.points.size()) + 3.0 * static_cast<double>(mesh.tets.size());
     const double most = std::clamp(kMostBytes / bytes, 2.0, static_cast<double>(kMostMoments));
     const auto step = static_cast<std::size_t>(std::ceil(static_cast<double>(count) / most));
     std::vector<std::size_t> chosen;
@@ -168,30 +169,33 @@ bool add_bone(const std::string& name, const std::vector<std::string>& files,
     return true;
 }
 
-// The limits of colours: of all bodies at all times.
-std::vector<ViewedQuantity> limits_of(const ViewedScene& scene) {
-    std::vector<ViewedQuantity> quantities{
-        {"activation", 0, 1}, {"fibre stretch", 1, 1}, {"stress (von Mises), MPa", 0, 1}};
-    std::vector<double> stresses;
+// The values of a quantity of all bodies at all times.
+std::vector<double> all_values(const ViewedScene& scene, std::size_t quantity) {
+    std::vector<double> all;
     for (const ViewedBody& body : scene.bodies)
         for (const ViewedValues& values : body.values)
-            for (const std::vector<double>& numbers : values.times)
-                for (const double number : numbers) {
-                    if (!std::isfinite(number)) continue;
-                    if (values.quantity == kStress) stresses.push_back(number);
-                    if (values.quantity != kStretch) continue;
-                    ViewedQuantity& stretch = quantities[kStretch];
-                    stretch.least = std::min(stretch.least, number);
-                    stretch.most = std::max(stretch.most, number);
-                }
-    if (!stresses.empty()) {
-        const auto at = stresses.begin() +
-                        static_cast<std::ptrdiff_t>(kStressQuantile *
-                                                    static_cast<double>(stresses.size() - 1));
-        std::nth_element(stresses.begin(), at, stresses.end());
-        quantities[kStress].most = *at;
-    }
-    return quantities;
+            if (values.quantity == quantity)
+                for (const std::vector<double>& numbers : values.times)
+                    std::ranges::copy_if(numbers, std::back_inserter(all),
+                                         [](double number) { return std::isfinite(number); });
+    return all;
+}
+
+double quantile(std::vector<double>& values, double share) {
+    if (values.empty()) return 0;
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+// The limits of colours, over all bodies and times.
+std::vector<ViewedQuantity> limits_of(const ViewedScene& scene) {
+    std::vector<double> stretches = all_values(scene, kStretch);
+    std::vector<double> stresses = all_values(scene, kStress);
+    return {{"activation", 0, 1},
+            {"fibre stretch", quantile(stretches, 1 - kQuantile), quantile(stretches, kQuantile)},
+            {"stress (von Mises), MPa", 0, quantile(stresses, kQuantile)}};
 }
 
 void add_bodies(const RunJson& run, const TetMesh& first, const std::vector<Part>& parts,
@@ -209,8 +213,8 @@ void add_bodies(const RunJson& run, const TetMesh& first, const std::vector<Part
 
 }  // namespace
 
-ViewerScene contraction_scene(const RunJson& run, const fs::path& folder) {
-    ViewerScene made;
+ViewedScene contraction_scene(const RunJson& run, const fs::path& folder) {
+    ViewedScene made;
     const FrameFiles files = files_of(run);
     if (files.bodies.empty()) {
         made.notes.emplace_back("There are no frames in .vtu files, which the 3D view is made of.");
@@ -225,23 +229,24 @@ ViewerScene contraction_scene(const RunJson& run, const fs::path& folder) {
         if (i == 0) {
             chosen = chosen_frames(files.bodies.size(), mesh);
             parts = parts_of(mesh, values_of(arrays, "body", file), run.at("bodies").size(), file);
-            add_bodies(run, mesh, parts, made.scene);
+            add_bodies(run, mesh, parts, made);
         }
-        made.scene.times.push_back(arrays.time.value_or(0));
+        made.times.push_back(arrays.time.value_or(0));
         for (std::size_t b = 0; b < parts.size(); ++b)
-            add_moment(mesh, arrays, parts[b], file, made.scene.bodies[b]);
+            add_moment(mesh, arrays, parts[b], file, made.bodies[b]);
     }
-    made.scene.quantities = limits_of(made.scene);
+    made.quantities = limits_of(made);
     for (const auto& [name, of_bone] : files.bones)
-        if (!add_bone(name, of_bone, chosen, folder, made.scene))
-            made.notes.push_back("The bone " + name + " has not the same points in each frame and "
+        if (!add_bone(name, of_bone, chosen, folder, made))
+            made.notes.push_back("The bone " + name +
+                                 " has not the same points in each frame and "
                                  "is left out.");
     if (chosen.size() < files.bodies.size())
         made.notes.push_back("The view has " + std::to_string(chosen.size()) + " of " +
                              std::to_string(files.bodies.size()) + " frames.");
     made.notes.emplace_back(
-        "Stress has its last colour from the 99th percentile on. Bones of more than 20 000 "
-        "triangles are decimated for the view.");
+        "Colours of stress end at its 99th percentile, those of stretch at the 1st and the 99th. "
+        "Bones of more than 20 000 triangles are decimated for the view.");
     return made;
 }
 

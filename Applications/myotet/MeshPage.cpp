@@ -257,7 +257,7 @@ report::Page mesh_page(const RunJson& run, const MeshViews& views) {
     report::Page page{
         .title = "Meshes of " + input.filename().string(),
         .lead = lead_of(run),
-        .sections = {view_section(mesh_scene(views)),
+        .sections = {{"view", "3D view", report::viewer_html(mesh_scene(views))},
                      {"pictures", "Pictures", pictures_html(views)},
                      {"tissues", "Tissues", cards_html(run, views)},
                      {"census", "In and out", census_html(run, views)},

@@ -108,30 +108,31 @@ void add_distances(const MeshViews& views, ViewedScene& scene) {
 
 }  // namespace
 
-ViewerScene mesh_scene(const MeshViews& views) {
-    ViewerScene made;
+ViewedScene mesh_scene(const MeshViews& views) {
+    ViewedScene made;
     if (views.box.empty()) {
         made.notes.emplace_back("No mesh was written.");
         return made;
     }
     for (const TissueView& tissue : views.tissues)
-        made.scene.bodies.push_back({.name = label_of(tissue) +
-                                             (tissue.surface.triangles.empty() ? ", no mesh" : ""),
-                                     .colour = tissue.colour,
-                                     .mesh = tissue.mesh,
-                                     .surface = tissue.surface});
-    const std::vector<std::string> emptied = keep_to_most_tets(made.scene);
-    const std::vector<std::string> thinned = keep_to_most_triangles(made.scene);
+        made.bodies.push_back(
+            {.name = label_of(tissue) + (tissue.surface.triangles.empty() ? ", no mesh" : ""),
+             .colour = tissue.colour,
+             .mesh = tissue.mesh,
+             .surface = tissue.surface});
+    const std::vector<std::string> emptied = keep_to_most_tets(made);
+    const std::vector<std::string> thinned = keep_to_most_triangles(made);
     if (!emptied.empty())
-        made.notes.push_back("There are more tetrahedra than the view holds; of these tissues it "
-                             "shows the surface alone: " +
-                             listed(emptied) + ".");
+        made.notes.push_back(
+            "There are more tetrahedra than the view holds; of these tissues it "
+            "shows the surface alone: " +
+            listed(emptied) + ".");
     if (!thinned.empty())
         made.notes.push_back("These surfaces are decimated for the view: " + listed(thinned) + ".");
     if (emptied.empty() && thinned.empty())
         made.notes.emplace_back("The view holds each tetrahedron and triangle of the meshes.");
-    add_distances(views, made.scene);
-    if (!made.scene.quantities.empty())
+    add_distances(views, made);
+    if (!made.quantities.empty())
         made.notes.emplace_back(
             "Distances are those of the surface's nodes from the labels' voxels, whose corners it "
             "rounds off.");

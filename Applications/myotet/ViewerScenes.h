@@ -6,23 +6,14 @@
 
 namespace myotet::app {
 
-/// What a page's 3D view shows, and sentences on what it leaves out or simplifies.
-struct ViewerScene {
-    report::ViewedScene scene;
-    std::vector<std::string> notes;
-};
-
-/// All tissues in tetrahedra, as many as 1.5 million in all; beyond that the largest tissues
-/// become surfaces, and surfaces of more than 300 000 triangles in all are decimated. Coloured by
-/// distance to the labels where the scan is at hand.
-[[nodiscard]] ViewerScene mesh_scene(const MeshViews& views);
+/// All tissues in tetrahedra, up to 1.5 million of them; beyond that the largest tissues become
+/// surfaces, and surfaces of more than 300 000 triangles in all are decimated, which the notes
+/// say. Coloured by distance to the labels where the scan is at hand.
+[[nodiscard]] report::ViewedScene mesh_scene(const MeshViews& views);
 
 /// The bodies of a contraction over time with activation, fibre stretch and stress, their fibres,
 /// and the bones; at most 60 moments, fewer of large meshes. Throws InputError, IoError.
-[[nodiscard]] ViewerScene contraction_scene(const RunJson& run,
-                                            const std::filesystem::path& folder);
-
-/// The part of a page that holds the view, or says why there is none.
-[[nodiscard]] report::Section view_section(const ViewerScene& viewer);
+[[nodiscard]] report::ViewedScene contraction_scene(const RunJson& run,
+                                                    const std::filesystem::path& folder);
 
 }  // namespace myotet::app

@@ -344,11 +344,11 @@ std::vector<NamedArray> arrays_of(const VtkFile& vtk, const pugi::xml_node& piec
         if (!VtkFile::is_array(array) || name == "label" ||
             std::string_view(array.attribute("type").value()) == "String")
             continue;
-        NamedArray named{
-            .name = name,
-            .components = static_cast<int>(vtk.number(array, "NumberOfComponents", 1)),
-            .values = vtk.reals(array)};
-        vtk.require(array, named.values.size() == count * static_cast<std::size_t>(named.components),
+        NamedArray named{.name = name,
+                         .components = static_cast<int>(vtk.number(array, "NumberOfComponents", 1)),
+                         .values = vtk.reals(array)};
+        vtk.require(array,
+                    named.values.size() == count * static_cast<std::size_t>(named.components),
                     "has not as many numbers as its components ask for");
         arrays.push_back(std::move(named));
     }

@@ -19,7 +19,7 @@ struct Guess {
 /// A mesh's connections in few bytes, and the order in which they are told.
 struct Connections {
     std::string bytes;
-    std::vector<std::int32_t> points;  ///< old number of each new one; points of no element go
+    std::vector<std::int32_t> points;    ///< old number of each new one; points of no element go
     std::vector<std::int32_t> elements;  ///< the same of tetrahedra or triangles
     std::vector<Guess> guesses;          ///< of each new point
 };

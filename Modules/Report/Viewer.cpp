@@ -35,18 +35,31 @@ std::string script(std::string_view kind, std::string_view id, std::string_view 
            std::string(content) + "</script>\n";
 }
 
+std::string joined(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
+    return text;
+}
+
+constexpr std::string_view kGestures =
+    "Drag to turn, with Shift to move, pinch to zoom; after a click on the picture the wheel "
+    "zooms. "
+    "With the keyboard: arrows, Shift and arrows, + and \xE2\x88\x92, 0.";
+
 }  // namespace
 
 bool has_viewer() { return !kViewerProgram.empty(); }
 
 std::string viewer_html(const ViewedScene& scene) {
+    if (scene.bodies.empty()) return paragraph(joined(scene.notes));
     if (!has_viewer())
         return paragraph(
             "This Myotet was built without Node.js and npm, so that its pages have no 3D view. "
             "Pictures, tables and plots follow.");
     const PackedScene made = packed(scene);
     return "<div class=\"viewer\" id=\"viewer\" data-state=\"waiting\"><p>The 3D view needs "
-           "scripts to be allowed. Pictures follow below.</p></div>\n" +
+           "scripts to be allowed. Pictures follow below.</p></div>\n<div class=\"for-screens\">" +
+           paragraph(kGestures) + paragraph(joined(scene.notes)) + "</div>\n" +
            script("application/json", "viewer-scene", made.header) +
            script("text/plain", "viewer-data", base64(deflated(made.data))) +
            script("text/plain", "viewer-program", kViewerProgram) + "<script>" +

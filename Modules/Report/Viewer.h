@@ -40,7 +40,8 @@ struct ViewedBody {
 struct ViewedScene {
     std::vector<ViewedBody> bodies;
     std::vector<ViewedQuantity> quantities;
-    std::vector<double> times;  ///< s; empty: nothing moves
+    std::vector<double> times;       ///< s; empty: nothing moves
+    std::vector<std::string> notes;  ///< texts below the view
 };
 
 /// Whether this build holds the viewer's program.
@@ -48,7 +49,8 @@ struct ViewedScene {
 
 /// The viewer with its data, as an element of a page; one viewer a page. Coordinates are
 /// rounded to a 65 535th of a body's box, values to 254 steps between the limits of their
-/// quantity, fibres to 3 000 a body. Without the program, a sentence that says so.
+/// quantity, fibres to 3 000 a body. Without the program, a sentence that says so; without
+/// bodies, the notes.
 /// Throws InputError when values or moments are not as many as points or tetrahedra.
 [[nodiscard]] std::string viewer_html(const ViewedScene& scene);
 

@@ -13,8 +13,8 @@
 namespace myotet::report {
 namespace {
 
-constexpr double kMostSteps = 65535;       // of a coordinate across a body's box
-constexpr double kValueSteps = 254;        // of a value between its limits
+constexpr double kMostSteps = 65535;  // of a coordinate across a body's box
+constexpr double kValueSteps = 254;   // of a value between its limits
 constexpr unsigned char kNoValue = 255;
 constexpr std::size_t kMostFibres = 3000;  // of a body
 constexpr int kRampColours = 9;
@@ -60,8 +60,7 @@ std::vector<Whole> rounded_points(const std::vector<Vec3>& points,
 std::int32_t guessed(const std::vector<Whole>& whole, const Guess& guess, int axis) {
     if (guess.a < 0) return 0;
     if (guess.b < 0) return whole[guess.a][axis];
-    const std::int32_t sum =
-        whole[guess.a][axis] + whole[guess.b][axis] + whole[guess.c][axis];
+    const std::int32_t sum = whole[guess.a][axis] + whole[guess.b][axis] + whole[guess.c][axis];
     return 2 * sum / 3 - whole[guess.d][axis];
 }
 
@@ -77,8 +76,8 @@ void append_differences(std::string& bytes, const std::vector<std::int32_t>& dif
     bytes += low + high;
 }
 
-std::string coordinate_bytes(const std::vector<std::vector<Vec3>>& moments,
-                             const Connections& told, const Box& box) {
+std::string coordinate_bytes(const std::vector<std::vector<Vec3>>& moments, const Connections& told,
+                             const Box& box) {
     std::string bytes;
     std::vector<Whole> before;
     for (const std::vector<Vec3>& points : moments) {
@@ -105,10 +104,9 @@ std::string value_bytes(const ViewedValues& values, const ViewedQuantity& quanti
         std::vector<unsigned char> now;
         for (const std::int32_t old : order) {
             const double share = (numbers[old] - quantity.least) / range;
-            now.push_back(std::isfinite(share)
-                              ? static_cast<unsigned char>(
-                                    std::lround(kValueSteps * std::clamp(share, 0.0, 1.0)))
-                              : kNoValue);
+            now.push_back(std::isfinite(share) ? static_cast<unsigned char>(std::lround(
+                                                     kValueSteps * std::clamp(share, 0.0, 1.0)))
+                                               : kNoValue);
         }
         for (std::size_t i = 0; i < now.size(); ++i) {
             const int guess = !before.empty() ? before[i] : i > 0 ? now[i - 1] : 0;
@@ -128,8 +126,7 @@ std::string values_text(const ViewedScene& scene, const ViewedBody& body, const 
         const std::size_t count = at_tets                  ? body.mesh.tets.size()
                                   : body.mesh.tets.empty() ? body.surface.points.size()
                                                            : body.mesh.points.size();
-        require(values.quantity < scene.quantities.size() && !values.times.empty(), body,
-                "values");
+        require(values.quantity < scene.quantities.size() && !values.times.empty(), body, "values");
         for (const std::vector<double>& numbers : values.times)
             require(numbers.size() == count, body, "values");
         text += std::string(text.empty() ? "" : ",") +

@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { numbersOf, openPage, picture, viewOpens } from "./opened.mjs";
 import { covered, difference } from "./picture.mjs";
 
-const evil = '<img src=x onerror="document.title=1">';
+const evil = '<img/src=x/onerror=document.title=1>';
 
 export function make({ run, folder }) {
   run("phantom", "arm", "-o", "arm.nii.gz", "--spacing", "2", "2", "2");
@@ -51,6 +51,7 @@ async function namesAreTexts(page, report) {
   assert.notEqual(await page.title(), "1");
 }
 
+const lettersCover = 0.004; // of the picture: the sides are told in it
 const row = (page, i) => page.locator("#viewer .bodies li").nth(i);
 
 async function switchesChange(page, whole) {
@@ -63,10 +64,10 @@ async function switchesChange(page, whole) {
 
   await row(page, 1).getByRole("button").click();
   const alone = await picture(page);
-  assert.ok(covered(alone) > 0.002 && covered(alone) < covered(whole), "isolated");
+  assert.ok(covered(alone) > lettersCover && covered(alone) < covered(whole), "isolated");
   assert.equal(await page.locator("#viewer .bodies input:checked").count(), 1);
   await page.getByRole("button", { name: "show none" }).click();
-  assert.equal(covered(await picture(page)), 0, "none shows something");
+  assert.ok(covered(await picture(page)) < lettersCover, "none shows something");
   await page.getByRole("button", { name: "show all" }).click();
 
   await page.getByLabel("opacity of all").fill("0.3");
@@ -89,8 +90,8 @@ async function looksChange(page) {
     back: ["L", "R", "S", "I"],
     left: ["A", "P", "S", "I"],
     right: ["P", "A", "S", "I"],
-    above: ["R", "L", "A", "P"],
-    below: ["L", "R", "A", "P"],
+    above: ["L", "R", "A", "P"],
+    below: ["R", "L", "A", "P"],
   };
   for (const [name, sides] of Object.entries(expected)) {
     await page.getByRole("button", { name: `from ${name}` }).click();

@@ -7,13 +7,16 @@ import { decoded } from "./picture.mjs";
 
 const flags = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
+const patience = 240000; // ms; machines that test are busy
+
 export async function launch(executablePath) {
-  return chromium.launch({ executablePath, args: flags });
+  return chromium.launch({ executablePath, args: flags, timeout: patience });
 }
 
 /** Opens report.html of a folder; the page records its errors and requests. */
 export async function openPage(browser, file, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1180, height: 1400 }, ...options });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const wrong = [];
   const url = pathToFileURL(file).href;
@@ -32,7 +35,7 @@ export async function openPage(browser, file, options = {}) {
 /** Waits until the 3D view has drawn. */
 export async function viewOpens(page) {
   await page.waitForSelector("#viewer[data-state=open], #viewer[data-state=failed]", {
-    timeout: 60000,
+    timeout: patience,
   });
   const said = await page.locator("#viewer").getAttribute("data-state");
   assert.equal(said, "open", await page.locator("#viewer").innerText());

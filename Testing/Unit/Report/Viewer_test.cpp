@@ -114,8 +114,8 @@ TEST(TetCode, TellsPiecesThatDoNotTouchOrOnlyAtAPoint) {
     const auto last = static_cast<std::int32_t>(mesh.points.size()) - 1;
     mesh.tets.push_back({0, last - 2, last - 1, last});
     const Tet& t = mesh.tets.back();
-    if (signed_volume(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]],
-                      mesh.points[t[3]]) < 0)
+    if (signed_volume(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]) <
+        0)
         std::swap(mesh.tets.back()[2], mesh.tets.back()[3]);
     expect_told_whole(mesh);
 }
@@ -132,8 +132,8 @@ TEST(TetCode, GuessesNamePointsThatAreThere) {
     const Connections told = tell_tets(block().tets, block().points.size());
     ASSERT_EQ(told.guesses.size(), told.points.size());
     for (std::size_t p = 0; p < told.guesses.size(); ++p)
-        for (const std::int32_t n : {told.guesses[p].a, told.guesses[p].b, told.guesses[p].c,
-                                     told.guesses[p].d})
+        for (const std::int32_t n :
+             {told.guesses[p].a, told.guesses[p].b, told.guesses[p].c, told.guesses[p].d})
             EXPECT_LT(n, static_cast<std::int32_t>(p));
 }
 
@@ -172,9 +172,7 @@ TEST(Viewer, NamesStayTexts) {
     EXPECT_EQ(myotet::testing::markup_mistake(viewer_html(scene())), "");
 }
 
-TEST(Viewer, TheSameSceneHasTheSameBytes) {
-    EXPECT_EQ(viewer_html(scene()), viewer_html(scene()));
-}
+TEST(Viewer, TheSameSceneHasTheSameBytes) { EXPECT_EQ(viewer_html(scene()), viewer_html(scene())); }
 
 TEST(Viewer, SaysWhetherThereIsAProgram) {
     const std::string html = viewer_html(scene());

@@ -14,6 +14,13 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** A name that may break behind its underscores. */
+export function breakable(name: string): HTMLElement {
+  const made = element("span");
+  name.split(/(?<=_)/).forEach((part, i) => made.append(...(i > 0 ? [element("wbr")] : []), part));
+  return made;
+}
+
 export function button(text: string, name: string, act: () => void): HTMLButtonElement {
   const made = element("button", { type: "button", "aria-label": name }, text);
   made.addEventListener("click", act);

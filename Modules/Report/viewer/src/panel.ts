@@ -3,7 +3,7 @@
 
 import { looks, sideOf } from "./camera";
 import type { Eye } from "./camera";
-import { button, checkbox, choice, element, readable, slider } from "./dom";
+import { breakable, button, checkbox, choice, element, readable, slider } from "./dom";
 import type { Scene } from "./scene";
 import type { Stage } from "./stage";
 
@@ -76,7 +76,7 @@ export function bodyList(scene: Scene, title: string): HTMLElement {
       element(
         "li",
         {},
-        element("label", {}, box, swatch, element("span", {}, one.body.name)),
+        element("label", {}, box, swatch, breakable(one.body.name)),
         button("only", `show only ${one.body.name}`, () => show((j) => j === i)),
         opacity,
       ),

@@ -9,6 +9,7 @@ import { Paint, rgbOf } from "./paint";
 import { Piece, Stage } from "./stage";
 
 const fibreOpacity = 0.25; // of bodies whose fibres are shown
+const shortestEdge = 6; // pixels; the edges of a cut are not drawn when they would fill it
 
 interface Shown {
   body: Body;
@@ -18,6 +19,18 @@ interface Shown {
   visible: boolean;
   opacity: number;
   open: Opened | null; // of the present cut and time; null: to be found
+  edge: number; // mean length in the cut, mm
+}
+
+function meanEdge(x: Float32Array, triangles: Int32Array): number {
+  const sampled = 3000;
+  let sum = 0;
+  let count = 0;
+  for (let i = 0; i < Math.min(triangles.length, sampled); i += 3, ++count) {
+    const [a, b] = [3 * triangles[i]!, 3 * triangles[i + 1]!];
+    sum += Math.hypot(x[a]! - x[b]!, x[a + 1]! - x[b + 1]!, x[a + 2]! - x[b + 2]!);
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 export class Scene {
@@ -40,9 +53,16 @@ export class Scene {
       const colour = rgbOf(body.colour);
       const [skin, inside, fibres] = [new Piece(colour), new Piece(colour), new Piece([20, 20, 24])];
       for (const piece of [skin, inside, fibres]) stage.renderer.addActor(piece.actor);
-      inside.actor.getProperty().setEdgeVisibility(true);
-      return { body, skin, inside, fibres, visible: true, opacity: 1, open: null };
+      return { body, skin, inside, fibres, visible: true, opacity: 1, open: null, edge: 0 };
     });
+    stage.beforeDrawing = () => {
+      for (const one of this.shown)
+        one.inside.actor
+          .getProperty()
+          .setEdgeVisibility(
+            one.opacity === 1 && (this.edges || one.edge * stage.pixelsPerMm > shortestEdge),
+          );
+    };
     for (const body of bodies)
       for (let time = 0; time < Math.max(times, 1); ++time) this.include(body.points(time));
   }
@@ -84,6 +104,7 @@ export class Scene {
       if (!one.visible || one.open) continue;
       const x = one.body.points(this.time);
       one.open = opened(one.body.mesh, x, this.plane);
+      one.edge = meanEdge(x, one.open.inside.triangles);
       for (const [piece, drawn] of [
         [one.skin, one.open.skin],
         [one.inside, one.open.inside],
@@ -124,7 +145,6 @@ export class Scene {
       piece.actor.getProperty().setOpacity(opacity);
     }
     one.skin.actor.getProperty().setEdgeVisibility(this.edges);
-    one.inside.actor.getProperty().setEdgeVisibility(opacity === 1);
     one.fibres.actor.setVisibility(one.visible && fibred);
   }
 }

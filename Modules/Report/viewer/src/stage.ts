@@ -87,7 +87,8 @@ export class Stage {
   private readonly window = vtkRenderWindow.newInstance();
   private readonly view = vtkOpenGLRenderWindow.newInstance();
   private waiting = false;
-  /** Called after each picture. */
+  /** Called before and after each picture. */
+  beforeDrawing: () => void = () => {};
   afterDrawing: () => void = () => {};
 
   constructor(private readonly frame: HTMLElement) {
@@ -107,6 +108,10 @@ export class Stage {
     return this.frame.clientHeight;
   }
 
+  get pixelsPerMm(): number {
+    return this.height / (2 * this.camera.getParallelScale());
+  }
+
   /** Width over height. */
   get slimness(): number {
     return this.frame.clientWidth / Math.max(this.frame.clientHeight, 1);
@@ -123,6 +128,7 @@ export class Stage {
   }
 
   draw(): void {
+    this.beforeDrawing();
     this.renderer.resetCameraClippingRange();
     this.window.render();
     this.afterDrawing();
