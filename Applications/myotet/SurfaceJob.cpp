@@ -10,6 +10,7 @@
 #include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Outputs.h"
+#include "SoftSurface.h"
 #include "SurfaceStock.h"
 
 namespace myotet::app {
@@ -31,24 +32,40 @@ surface::Field trim_for(const SurfaceStock& stock, const Tissue& tissue,
 }
 
 /// Several regions of a tissue: cut when some of it goes and some stays.
-Cut together(const std::vector<surface::Result>& results) {
+Cut together(const std::vector<SoftSurface>& parts) {
     const auto all = [&](Cut cut) {
-        return std::ranges::all_of(results, [&](const auto& r) { return r.cut == cut; });
+        return std::ranges::all_of(parts, [&](const auto& p) { return p.made.cut == cut; });
     };
     return all(Cut::none) ? Cut::none : all(Cut::everything) ? Cut::everything : Cut::some;
 }
 
 /// Where two regions of a tissue touch, the lower level set there is the other's:
 /// a region's triangles and points are held to its own.
-void hold_each_to_its_own(const std::vector<surface::Result>& results, surface::Quality& whole) {
+void hold_each_to_its_own(const std::vector<SoftSurface>& parts, surface::Quality& whole) {
     whole.triangles_turned_over = 0;
     whole.points_off = whole.boundary_off_in_edges = 0;
-    for (const surface::Result& r : results) {
-        whole.triangles_turned_over += r.quality.triangles_turned_over;
-        whole.points_off = std::max(whole.points_off, r.quality.points_off);
+    for (const SoftSurface& part : parts) {
+        const surface::Quality& q = part.made.quality;
+        whole.triangles_turned_over += q.triangles_turned_over;
+        whole.points_off = std::max(whole.points_off, q.points_off);
         whole.boundary_off_in_edges =
-            std::max(whole.boundary_off_in_edges, r.quality.boundary_off_in_edges);
+            std::max(whole.boundary_off_in_edges, q.boundary_off_in_edges);
     }
+}
+
+/// What smoothing necks did to a tissue.
+void add_softening(const std::vector<SoftSurface>& parts, SurfaceTissue& report) {
+    int before = 0, after = 0;
+    for (const SoftSurface& part : parts) {
+        report.softened_places += part.places;
+        report.softened_by = std::max(report.softened_by, part.moved);
+        before += part.parts_before;
+        after += part.parts_after;
+    }
+    if (before != after)
+        report.notes.push_back("necks or slits thinner than a sample were smoothed away; of " +
+                               std::to_string(before) + " closed surfaces came " +
+                               std::to_string(after));
 }
 
 struct Made {
@@ -56,40 +73,46 @@ struct Made {
     TriMesh mesh;  ///< local coordinates
 };
 
-Made make_tissue(const SurfaceStock& stock, const Tissue& tissue, const surface::Field& trim,
-                 const surface::Options& options, ProgressSink& progress) {
-    std::vector<std::size_t> numbers;
-    std::vector<const levelset::LevelSet*> phis;
-    const std::vector<Region>& regions = stock.sets.sets.regions;
-    for (std::size_t r = 0; r < regions.size(); ++r)
-        if (belongs(regions[r], tissue)) {
-            numbers.push_back(r);
-            phis.push_back(&regions[r].phi);
-        }
-    std::vector<surface::Result> results(numbers.size());
-    parallel_for(0, numbers.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            results[i] =
-                surface::make_surface(stock.starts[numbers[i]],
-                                      {.phi = field_of(*phis[i]), .trim = trim}, options, progress);
-    });
-    Made made{.report = {.tissue = tissue, .components = static_cast<int>(numbers.size())}};
-    for (const surface::Result& r : results) {
+/// All regions of a tissue, each with what it is held by, as one.
+Made join_parts(const Tissue& tissue, const std::vector<SoftSurface>& parts,
+                const std::vector<const levelset::LevelSet*>& phis, const surface::Field& trim) {
+    Made made{.report = {.tissue = tissue, .components = static_cast<int>(parts.size())}};
+    for (const SoftSurface& part : parts) {
+        const TriMesh& mesh = part.made.mesh;
         const auto first = static_cast<std::int32_t>(made.mesh.points.size());
-        made.mesh.points.insert(made.mesh.points.end(), r.mesh.points.begin(), r.mesh.points.end());
-        for (const Triangle& t : r.mesh.triangles)
+        made.mesh.points.insert(made.mesh.points.end(), mesh.points.begin(), mesh.points.end());
+        for (const Triangle& t : mesh.triangles)
             made.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
     SurfaceTissue& report = made.report;
-    report.cut = together(results);
+    report.cut = together(parts);
     report.quality = surface::measure(made.mesh, {.phi = field_of(phis), .trim = trim});
-    hold_each_to_its_own(results, report.quality);
+    hold_each_to_its_own(parts, report.quality);
     if (made.mesh.triangles.empty())
         report.notes.emplace_back("the trim discards all of it; nothing was written");
     else
         report.notes = surface::shortfalls(report.quality);
+    add_softening(parts, report);
     report.broken_promises = surface::broken_promises(report.quality);
     return made;
+}
+
+Made make_tissue(const SurfaceStock& stock, const Tissue& tissue, const surface::Field& trim,
+                 const surface::Options& options, ProgressSink& progress) {
+    std::vector<std::size_t> numbers;
+    const std::vector<Region>& regions = stock.sets.sets.regions;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        if (belongs(regions[r], tissue)) numbers.push_back(r);
+    std::vector<SoftSurface> parts(numbers.size());
+    parallel_for(0, numbers.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            parts[i] = make_soft_surface(stock.starts[numbers[i]], regions[numbers[i]].phi, trim,
+                                         options, progress);
+    });
+    std::vector<const levelset::LevelSet*> phis;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        phis.push_back(parts[i].softened ? &*parts[i].softened : &regions[numbers[i]].phi);
+    return join_parts(tissue, parts, phis, trim);
 }
 
 std::vector<Made> make_tissues(const SurfaceStock& stock, const SurfaceJobOptions& asked,

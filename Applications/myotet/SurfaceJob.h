@@ -41,6 +41,10 @@ struct SurfaceTissue {
     int components = 0;
     surface::Cut cut = surface::Cut::none;
     surface::Quality quality;
+    /// Where its level set was smoothed, as it has necks or slits thinner than its
+    /// samples, and the farthest that it moved, mm.
+    int softened_places = 0;
+    double softened_by = 0;
     std::vector<std::string> notes;
     std::vector<std::string> broken_promises;  ///< empty: the surface was written
     std::vector<std::string> files;

@@ -47,6 +47,8 @@ Json tissue_json(const SurfaceTissue& t) {
                  {"components_in", t.components},
                  {"discarded", word_for(t.cut)}};
     json.update(quality_json(t.quality));
+    json["softened_places"] = t.softened_places;
+    json["softened_by_mm"] = t.softened_by;
     json["notes"] = t.notes;
     json["broken_promises"] = t.broken_promises;
     json["files"] = t.files;

@@ -37,9 +37,9 @@ int faults_of(const Fans& fans, const Field& phi, const EdgeStar& star) {
     for (const std::int32_t t : star.triangle)
         if (t >= 0) {
             there.push_back(fans.triangles[t]);
-            faults += !faces_outward(fans, phi, there.back());
+            faults += weight(facing(fans, phi, there.back()));
         }
-    return faults + crossings_of(fans, there, star.triangle);
+    return faults + kBroken * crossings_of(fans, there, star.triangle);
 }
 
 /// Cosine of the angle by which the triangles (a, b, c) and (b, a, d) turn.
@@ -112,8 +112,8 @@ bool flip_faces_outward(const Fans& fans, const Field& phi, std::int32_t a, std:
     const double then = turn(fans, c, d, a, b);
     if (then < kFold && then < turn(fans, a, b, c, d)) return false;
     const std::array<Triangle, 2> made{Triangle{d, b, c}, Triangle{c, a, d}};
-    const int faults = !faces_outward(fans, phi, made[0]) + !faces_outward(fans, phi, made[1]) +
-                       crossings_of(fans, made, star.triangle);
+    const int faults = weight(facing(fans, phi, made[0])) + weight(facing(fans, phi, made[1])) +
+                       kBroken * crossings_of(fans, made, star.triangle);
     return faults == 0 || faults <= faults_of(fans, phi, star);
 }
 

@@ -11,23 +11,32 @@ constexpr double kFold = -0.5;   // of 120
 
 }  // namespace
 
-bool faces_outward(const Field& phi, const Corner& a, const Corner& b, const Corner& c) {
+Facing facing(const Field& phi, const Corner& a, const Corner& b, const Corner& c) {
     const Vec3 n = double_area(a.point, b.point, c.point);
     const double at_a = n.dot(a.normal), at_b = n.dot(b.normal), at_c = n.dot(c.normal);
     const double least = kFacing * n.norm();
-    if (at_a > least && at_b > least && at_c > least) return true;
-    if (!(at_a > 0 || at_b > 0 || at_c > 0)) return false;
+    if (at_a > least && at_b > least && at_c > least) return Facing::outward;
+    const bool somewhere = at_a > 0 || at_b > 0 || at_c > 0;
     const Vec3 g = phi((a.point + b.point + c.point) / 3).gradient;
-    return n.dot(g) > kFacing * n.norm() * g.norm();
+    if (somewhere && n.dot(g) > kFacing * n.norm() * g.norm()) return Facing::outward;
+    return somewhere || n.dot(g) > 0 ? Facing::sideways : Facing::turned_over;
+}
+
+Facing facing(const Fans& fans, const Field& phi, const Triangle& t) {
+    return facing(phi, corner_of(fans, t[0]), corner_of(fans, t[1]), corner_of(fans, t[2]));
 }
 
 bool faces_outward(const Fans& fans, const Field& phi, const Triangle& t) {
-    return faces_outward(phi, corner_of(fans, t[0]), corner_of(fans, t[1]), corner_of(fans, t[2]));
+    return facing(fans, phi, t) == Facing::outward;
+}
+
+int weight(Facing facing) {
+    return facing == Facing::outward ? 0 : facing == Facing::sideways ? 1 : kBroken;
 }
 
 void Umbrella::add(std::int32_t b, std::int32_t c, std::int32_t old) {
     const Corner cb = corner_of(fans_, b), cc = corner_of(fans_, c);
-    faults_ += !faces_outward(phi_, at_, cb, cc);
+    faults_ += weight(facing(phi_, at_, cb, cc));
     made_.push_back({{v_, b, c}, {at_.point, cb.point, cc.point}});
     normals_.push_back(double_area(at_.point, cb.point, cc.point).normalized());
     old_.push_back(old);
@@ -42,7 +51,7 @@ int Umbrella::faults() const {
             faults +=
                 made_[i].points[2] == made_[j].points[1] && normals_[i].dot(normals_[j]) < kFold;
     }
-    return faults + !(mean.dot(at_.normal) > 0) + count_crossings(fans_, made_, old_);
+    return faults + !(mean.dot(at_.normal) > 0) + kBroken * count_crossings(fans_, made_, old_);
 }
 
 int faults_around(const Fans& fans, const Field& phi, std::int32_t v, const Corner& at) {

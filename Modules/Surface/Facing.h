@@ -19,13 +19,19 @@ struct Corner {
     return {fans.points[v], fans.normals[v]};
 }
 
-/// Whether a triangle faces out of the solid: its normal is within 78 degrees of
-/// the surface's at all three corners. Where the corners do not agree, at a sharp
-/// edge, the gradient of phi at the triangle's centre decides; the normal must
-/// then be less than 90 degrees from it.
-[[nodiscard]] bool faces_outward(const Field& phi, const Corner& a, const Corner& b,
-                                 const Corner& c);
+/// Which way a triangle faces. Outward, when its normal is within 78 degrees of the
+/// surface's at all three corners; where the corners do not agree, at a sharp edge,
+/// the gradient of phi at the triangle's centre decides, within 78 degrees of which
+/// it must be. Turned over, when it is against all four.
+enum class Facing { outward, sideways, turned_over };
+[[nodiscard]] Facing facing(const Field& phi, const Corner& a, const Corner& b, const Corner& c);
+[[nodiscard]] Facing facing(const Fans& fans, const Field& phi, const Triangle& t);
 [[nodiscard]] bool faces_outward(const Fans& fans, const Field& phi, const Triangle& t);
+
+/// How bad that is. What may not be in a finished mesh weighs more than all else that
+/// is wrong about a point: no change may trade it for anything.
+inline constexpr int kBroken = 1000;
+[[nodiscard]] int weight(Facing facing);
 
 /// Triangles that are to be made around a point, and what is wrong with them.
 class Umbrella {
@@ -36,10 +42,10 @@ public:
     void add(std::int32_t b, std::int32_t c, std::int32_t old);
     /// Instead of which nothing is made.
     void remove(std::int32_t old) { old_.push_back(old); }
-    /// How many do not face outward, of edges between them that turn by more than
-    /// 120 degrees, of triangles about watched points that they cross, and one more
-    /// when the surface's normal at v is against their mean, as it is on the far
-    /// side of a thin sheet.
+    /// How many do not face outward, by weight, of edges between them that turn by
+    /// more than 120 degrees, of triangles about watched points that they cross, and
+    /// one more when the surface's normal at v is against their mean, as it is on the
+    /// far side of a thin sheet.
     [[nodiscard]] int faults() const;
 
 private:

@@ -74,7 +74,7 @@ void measure_triangles(const TriMesh& mesh, const Field& phi, Quality& q) {
         const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
         const Vec3 n = double_area(a, b, c);
         q.area += 0.5 * n.norm();
-        for (const double angle : {angle_deg(a, b, c), angle_deg(b, c, a), angle_deg(c, a, b)}) {
+        for (const double angle : angles_deg(a, b, c)) {
             q.smallest_angle_deg = std::min(q.smallest_angle_deg, angle);
             q.largest_angle_deg = std::max(q.largest_angle_deg, angle);
         }
@@ -197,16 +197,38 @@ Quality measure(const TriMesh& mesh, const Guide& guide) {
     q.bad_points = count_bad_points(mesh);
     q.euler_characteristic =
         static_cast<std::int64_t>(q.points) - edges.count + static_cast<std::int64_t>(q.triangles);
-    Pieces pieces(mesh.points.size());
-    for (const Triangle& t : mesh.triangles) {
-        pieces.join(t[0], t[1]);
-        pieces.join(t[0], t[2]);
-    }
-    q.pieces = pieces.count(std::vector<char>(mesh.points.size(), 1));
+    q.pieces = count_pieces(mesh);
     q.crossing_triangles = static_cast<std::int64_t>(crossings(mesh.points, mesh.triangles).size());
     measure_boundary(mesh, guide, edges, q);
     measure_distance(mesh, guide.phi, q);
     return q;
+}
+
+std::array<double, 3> angles_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return {angle_deg(a, b, c), angle_deg(b, c, a), angle_deg(c, a, b)};
+}
+
+int count_pieces(const TriMesh& mesh) {
+    Pieces pieces(mesh.points.size());
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const Triangle& t : mesh.triangles) {
+        pieces.join(t[0], t[1]);
+        pieces.join(t[0], t[2]);
+        for (const std::int32_t v : t) used[v] = 1;
+    }
+    // A root may be any point of its piece, and is used as all of them are.
+    return pieces.count(used);
+}
+
+double median_edge(const TriMesh& mesh) {
+    std::vector<double> lengths;
+    each_edge(sorted_sides(mesh), [&](const Side& s, int, bool) {
+        lengths.push_back((mesh.points[s.low] - mesh.points[s.high]).norm());
+    });
+    if (lengths.empty()) return 0;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::ranges::nth_element(lengths, middle);
+    return *middle;
 }
 
 std::vector<std::string> broken_promises(const Quality& q) {
@@ -229,6 +251,9 @@ std::vector<std::string> shortfalls(const Quality& q) {
     if (!(q.largest_angle_deg <= kLargestAngle))
         say(sentences, "the largest angle is %.1f degrees, above %.0f", q.largest_angle_deg,
             kLargestAngle);
+    if (!(q.points_off <= kPointsOff * q.median_edge))
+        say(sentences, "a point is %.3f mm off the surface, above %.3f", q.points_off,
+            kPointsOff * q.median_edge);
     if (!(q.boundary_off_in_edges <= kBoundaryOff))
         say(sentences, "a point of the boundary is %.3f of an edge off its surfaces, above %.2f",
             q.boundary_off_in_edges, kBoundaryOff);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,10 +42,21 @@ struct Quality {
 /// A sentence for each promise about a mesh's connections that does not hold.
 [[nodiscard]] std::vector<std::string> broken_promises(const Quality& quality);
 
-/// What is asked of angles (degrees) and of the boundary's distance (parts of an edge).
-inline constexpr double kSmallestAngle = 25, kLargestAngle = 120, kBoundaryOff = 0.01;
+/// What is asked of angles (degrees), and of the distance of points from phi = 0 and of
+/// the boundary from both surfaces (parts of an edge; of the median one for points).
+inline constexpr double kSmallestAngle = 25, kLargestAngle = 120, kBoundaryOff = 0.01,
+                        kPointsOff = 0.01;
 
 /// A sentence for each of these that is not met.
 [[nodiscard]] std::vector<std::string> shortfalls(const Quality& quality);
+
+/// The angles of a triangle at its corners.
+[[nodiscard]] std::array<double, 3> angles_deg(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Of triangles that hang together by points.
+[[nodiscard]] int count_pieces(const TriMesh& mesh);
+
+/// Of all edges; 0 of an empty mesh, mm.
+[[nodiscard]] double median_edge(const TriMesh& mesh);
 
 }  // namespace myotet::surface

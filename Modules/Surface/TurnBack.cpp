@@ -43,8 +43,9 @@ Wrong wrong_about(const Fans& fans, const Field& phi, const std::set<std::int32_
     for (const std::int32_t number : triangles) {
         const Triangle& t = fans.triangles[number];
         there.push_back(t);
-        wrong.turned += turned_over(fans, phi, t);
-        wrong.sideways += !faces_outward(fans, phi, t);
+        const Facing way = facing(fans, phi, t);
+        wrong.turned += way == Facing::turned_over;
+        wrong.sideways += way != Facing::outward;
         wrong.sharpest =
             std::max(wrong.sharpest,
                      sharpest_cosine(fans.points[t[0]], fans.points[t[1]], fans.points[t[2]]));
@@ -150,10 +151,7 @@ bool mend(Fans& fans, const Guide& guide, const Triangle t) {
 }  // namespace
 
 bool turned_over(const Fans& fans, const Field& phi, const Triangle& t) {
-    const Corner a = corner_of(fans, t[0]), b = corner_of(fans, t[1]), c = corner_of(fans, t[2]);
-    const Vec3 n = double_area(a.point, b.point, c.point);
-    return !(n.dot(a.normal) > 0 || n.dot(b.normal) > 0 || n.dot(c.normal) > 0 ||
-             n.dot(phi((a.point + b.point + c.point) / 3).gradient) > 0);
+    return facing(fans, phi, t) == Facing::turned_over;
 }
 
 void turn_back(Fans& fans, const Guide& guide, CrossingGuard& guard) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SoftSurface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "LevelSet/Extract.h"
+#include "LevelSet/Soften.h"
+#include "Surface/Faults.h"
+#include "TrimSolid.h"
+
+namespace myotet::app {
+namespace {
+
+using levelset::LevelSet;
+using levelset::Spot;
+
+constexpr int kTries = 8;                  // surfaces made at most
+constexpr int kSoftenings = 12;            // before one of them
+constexpr int kSteps = 2;                  // of smoothing at a time
+constexpr double kRadius = 3, kApart = 1;  // of spots, in samples
+
+std::vector<Spot> spots_about(const std::vector<Vec3>& places, double spacing) {
+    std::vector<Spot> spots;
+    for (const Vec3& p : places)
+        if (std::ranges::none_of(
+                spots, [&](const Spot& s) { return (s.centre - p).norm() < kApart * spacing; }))
+            spots.push_back({p, kRadius * spacing});
+    return spots;
+}
+
+/// A level set on its way, and what a surface of it can begin with.
+struct Soft {
+    LevelSet phi;
+    TriMesh start;
+    int places = 0;
+};
+
+/// Smooths about `places`, then about what keeps a surface from being held. False
+/// where nothing is left.
+bool soften(Soft& soft, std::vector<Vec3> places) {
+    for (int i = 0; i < kSoftenings && !places.empty(); ++i) {
+        const std::vector<Spot> spots = spots_about(places, soft.phi.spacing);
+        levelset::soften(soft.phi, spots, kSteps);
+        soft.places += static_cast<int>(spots.size());
+        soft.start = levelset::extract_surface(soft.phi);
+        if (soft.start.triangles.empty()) return false;
+        places = surface::start_faults(soft.start, field_of(soft.phi), soft.phi.spacing);
+    }
+    return true;
+}
+
+double farthest(const TriMesh& mesh, const LevelSet& phi) {
+    double most = 0;
+    for (const Vec3& p : mesh.points) most = std::max(most, std::abs(phi.value(p)));
+    return most;
+}
+
+}  // namespace
+
+SoftSurface make_soft_surface(const TriMesh& start, const LevelSet& phi, const surface::Field& trim,
+                              const surface::Options& options, ProgressSink& progress) {
+    SoftSurface best;
+    best.made =
+        surface::make_surface(start, {.phi = field_of(phi), .trim = trim}, options, progress);
+    best.parts_before = best.parts_after = surface::count_pieces(start);
+    std::vector<Vec3> places = surface::faults(best.made.mesh, field_of(phi));
+    std::size_t fewest = places.size();
+    if (fewest == 0) return best;
+
+    Soft soft{.phi = phi, .start = {}};
+    for (int i = 1; i < kTries && !places.empty() && soften(soft, places); ++i) {
+        progress.check();
+        surface::Result made = surface::make_surface(
+            soft.start, {.phi = field_of(soft.phi), .trim = trim}, options, progress);
+        places = surface::faults(made.mesh, field_of(soft.phi));
+        if (places.size() >= fewest) continue;
+        fewest = places.size();
+        best.made = std::move(made);
+        best.softened = soft.phi;
+        best.places = soft.places;
+        best.moved = std::max(farthest(start, soft.phi), farthest(best.made.mesh, phi));
+        best.parts_after = surface::count_pieces(soft.start);
+    }
+    return best;
+}
+
+}  // namespace myotet::app
