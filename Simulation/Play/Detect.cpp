@@ -86,6 +86,7 @@ void Finder::keep(const Mover& mover, const Vec3& normal, double offset, const V
     touch.stiffness = law.stiffness * mover.area;
     touch.friction = law.friction;
     touch.start = start;
+    touch.apart = normal.dot(touch.sum(course_.x)) - offset;
     found.all.push_back(touch);
 }
 

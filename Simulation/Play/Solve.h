@@ -14,13 +14,13 @@ struct System {
 };
 
 struct SolveOptions {
-    double tolerance = 1e-3;  ///< of the residual, in the preconditioner's norm
-    int iterations = 300;     ///< at most
+    double tolerance = 0.1;  ///< of the residual, in the preconditioner's norm
+    int iterations = 300;    ///< at most
 };
 
 /// (K + touches) d = right on nodes that are not held, d = 0 on those that are. Conjugate
-/// gradients, preconditioned by the inverses of the diagonal blocks, touches included; K is
-/// read in single precision. Ends early along a direction in which the system is not
+/// gradients, preconditioned by the inverses of the diagonal blocks, touches included; all in
+/// single precision. Ends early along a direction in which the system is not
 /// positive, with what was found so far: d still goes downhill. Returns the iterations.
 /// Same bytes on any number of threads.
 int solve(const System& system, const dynamics::NodeVectors& right, const SolveOptions& options,

@@ -21,8 +21,12 @@ constexpr double kEnough = 1e-4;
 constexpr int kHalvings = 12;
 // Sums differ by rounding in this part of what inertia would cost without the step.
 constexpr double kRounding = 1e-12;
+// Mean edges that an iteration moves nodes by when there is nothing left to be gained.
+constexpr double kNothing = 1e-5;
 // What slides slower sticks, mm/s.
 constexpr double kSlip = 1;
+// Mean edges by which things may close in on each other in a part of a step.
+constexpr double kLongestWay = 1;
 
 template <class Act>
 void each_body(World& world, const Act& act) {
@@ -47,6 +51,8 @@ void StepOptions::validate() const {
     if (!(iterations >= 1 && iterations <= 1000))
         throw InputError("iterations are " + std::to_string(iterations) +
                          ", but must be from 1 to 1000");
+    if (!(parts >= 1 && parts <= 1000))
+        throw InputError("parts are " + std::to_string(parts) + ", but must be from 1 to 1000");
     if (!(tolerance > 0 && tolerance < 1))
         throw InputError("tolerance is " + std::to_string(tolerance) +
                          ", but must be a part of an edge between 0 and 1");
@@ -183,33 +189,62 @@ void Stepper::mend_momentum(NodeVectors& x) const {
     }
 }
 
+// As many parts as what is about to touch closes in by mean edges: its planes are found where
+// a part begins, and hold for no longer ways.
+int Stepper::parts() const {
+    double closing = 0;
+    for (const Touch& t : touches_.all) {
+        const double to = t.normal.dot(t.sum(ahead_)) - t.offset;
+        if (to < t.gap) closing = std::max(closing, t.apart - to);
+    }
+    const double parts = std::ceil(closing / (kLongestWay * edge_));
+    return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(options_.parts)));
+}
+
+// Ends when an iteration moved little and, lest what was left undone should feed motion, the
+// energy is not above that at the beginning; where something drives it, when one moved less
+// than rounding shows.
+void Stepper::solve_step(double dt, State& state, StepReport& report) {
+    const double before = energies(state).total();
+    State next{state.x, state.v, state.time + dt};
+    NodeVectors d;
+    first_guess(next.x);
+    MYOTET_CHECK(std::isfinite(level_), "a step begins where no tetrahedron is inverted");
+    bool settled = false;
+    for (int i = 0; i < options_.iterations && !settled; ++i) {
+        if (i > 0) {
+            lag_friction(touches_.all, kSlip * dt);
+            level_ = energy(next.x);
+        }
+        assemble(next.x);
+        report.linear_iterations +=
+            solve({K_, touches_.all, world_.held}, forces_, options_.linear, d);
+        const double s = search(d, next.x);
+        mend_momentum(next.x);
+        double farthest = 0;
+        for (const Vec3& by : d) farthest = std::max(farthest, by.squaredNorm());
+        const double moved = s * std::sqrt(farthest) / edge_;
+        for (std::size_t n = 0; n < next.x.size(); ++n) next.v[n] = (next.x[n] - state.x[n]) / dt;
+        settled =
+            moved <= options_.tolerance && (moved <= kNothing || energies(next).total() <= before);
+        ++report.iterations;
+    }
+    state = std::move(next);
+    report.settled = report.settled && settled;
+}
+
 StepReport Stepper::step(double dt, State& state) {
     if (!(dt > 0 && std::isfinite(dt)))
         throw InputError("time step is " + std::to_string(dt) + " s, but it must be positive");
     begin(dt, state);
-    StepReport report;
-    report.deepest_before = touches_.deepest;
-    NodeVectors x = state.x, d;
-    first_guess(x);
-    MYOTET_CHECK(std::isfinite(level_), "a step begins where no tetrahedron is inverted");
-    while (report.iterations < options_.iterations && !report.settled) {
-        if (report.iterations > 0) {
-            lag_friction(touches_.all, kSlip * dt);
-            level_ = energy(x);
-        }
-        assemble(x);
-        report.linear_iterations +=
-            solve({K_, touches_.all, world_.held}, forces_, options_.linear, d);
-        const double s = search(d, x);
-        double farthest = 0;
-        for (const Vec3& by : d) farthest = std::max(farthest, by.squaredNorm());
-        report.settled = s == 0 || s * std::sqrt(farthest) <= options_.tolerance * edge_;
-        ++report.iterations;
+    StepReport report{.parts = parts(), .settled = true, .deepest_before = touches_.deepest};
+    const double end = state.time + dt, part = dt / report.parts;
+    for (int i = 0; i < report.parts; ++i) {
+        if (report.parts > 1) begin(part, state);
+        report.deepest_before = std::max(report.deepest_before, touches_.deepest);
+        solve_step(part, state, report);
     }
-    mend_momentum(x);
-    for (std::size_t n = 0; n < x.size(); ++n) state.v[n] = (x[n] - state.x[n]) / dt;
-    state.x = std::move(x);
-    state.time += dt;
+    state.time = end;
     report.energies = energies(state);
     for (const Touch& t : touches_.all) {
         report.touching += t.press > 0;

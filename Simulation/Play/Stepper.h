@@ -13,8 +13,10 @@ struct State {
 };
 
 struct StepOptions {
-    int iterations = 8;       ///< of Newton's method, at most
-    double tolerance = 1e-3;  ///< a step ends when an iteration moved no node farther, mean edges
+    int iterations = 8;  ///< of Newton's method in a part of a step, at most
+    /// Ends when an iteration moved no node farther, in mean edges of the finest mesh.
+    double tolerance = 1e-2;
+    int parts = 4;  ///< that a step may be cut into where things close in on each other fast
     SolveOptions linear;
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
@@ -27,6 +29,7 @@ struct Energies {
 };
 
 struct StepReport {
+    int parts = 1;  ///< that the step was cut into
     int iterations = 0, linear_iterations = 0;
     bool settled = false;       ///< the tolerance was met
     int touching = 0;           ///< touches that press at the end
@@ -42,7 +45,8 @@ struct StepReport {
 /// Gast and others 2015]. What may touch is found once, where the step begins. Each
 /// iteration solves by conjugate gradients and goes at most nine tenths of the way to where
 /// a tetrahedron would be flat, halved until the sum is less (Armijo): no tetrahedron ever
-/// inverts, however few the iterations.
+/// inverts, however few the iterations. A step is cut into parts where things close in on each
+/// other by more than a mean edge in it.
 ///
 /// A body that nothing touches or holds keeps its momentum to rounding: what conjugate
 /// gradients left of it is made up by a shift of the whole body, which no energy feels.
@@ -69,6 +73,8 @@ private:
     [[nodiscard]] double energy(const dynamics::NodeVectors& x);
     [[nodiscard]] double largest_step(const dynamics::NodeVectors& x,
                                       const dynamics::NodeVectors& by) const;
+    [[nodiscard]] int parts() const;
+    void solve_step(double dt, State& state, StepReport& report);
     void begin(double dt, const State& state);
     void first_guess(dynamics::NodeVectors& x);
     void assemble(const dynamics::NodeVectors& x);

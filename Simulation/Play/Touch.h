@@ -28,6 +28,7 @@ struct Touch {
     /// Where sum w x, less the other's own motion, was when the step began, mm.
     Vec3 start = Vec3::Zero();
 
+    double apart = 0;  ///< c when the step began, mm
     /// Which two things touch, so that a touch is found again in the next step: ascending.
     std::array<std::int32_t, 3> who{0, 0, 0};
 
