@@ -17,6 +17,7 @@ using levelset::Spot;
 
 constexpr int kTries = 8;                  // surfaces made at most
 constexpr int kSoftenings = 12;            // before one of them
+constexpr int kKeeping = 3;                // of these, that keep volume
 constexpr int kSteps = 2;                  // of smoothing at a time
 constexpr double kRadius = 3, kApart = 1;  // of spots, in samples
 
@@ -36,12 +37,12 @@ struct Soft {
     int places = 0;
 };
 
-/// Smooths about `places`, then about what keeps a surface from being held. False
-/// where nothing is left.
+/// Smooths about `places`, then about what keeps a surface from being held; volume
+/// that would stay as shreds is let go after a few rounds. False where nothing is left.
 bool soften(Soft& soft, std::vector<Vec3> places) {
     for (int i = 0; i < kSoftenings && !places.empty(); ++i) {
         const std::vector<Spot> spots = spots_about(places, soft.phi.spacing);
-        levelset::soften(soft.phi, spots, kSteps);
+        levelset::soften(soft.phi, spots, {.steps = kSteps, .keeps_volume = i < kKeeping});
         soft.places += static_cast<int>(spots.size());
         soft.start = levelset::extract_surface(soft.phi);
         if (soft.start.triangles.empty()) return false;

@@ -164,13 +164,13 @@ void drop_pieces(LevelSet& phi, std::span<const Spot> spots) {
 
 }  // namespace
 
-void soften(LevelSet& phi, std::span<const Spot> spots, int steps) {
+void soften(LevelSet& phi, std::span<const Spot> spots, const Softening& how) {
     if (!phi.seamed.empty()) drop_pieces(phi, spots);
     for (const Spot& spot : spots) {
         Block block = read_block(phi, spot);
         const double before = enclosed(block, phi.spacing, 0);
-        for (int step = 0; step < steps; ++step) smooth(block);
-        give_back(block, phi.spacing, before);
+        for (int step = 0; step < how.steps; ++step) smooth(block);
+        if (how.keeps_volume) give_back(block, phi.spacing, before);
         block.each_inner([&](std::size_t n, const Index3& s) { write(phi, s, block.values[n]); });
     }
 }
