@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
+#include "ContractFrames.h"
 #include "Core/Errors.h"
-#include "MeshFiles/VtuArrays.h"
+#include "Core/Text.h"
 #include "Report/ColourMap.h"
 #include "Report/Decimate.h"
 #include "Text.h"
@@ -28,33 +28,6 @@ constexpr double kQuantile = 0.99;                 // the last colour begins her
 constexpr report::Colour kBone{0.9, 0.86, 0.74};
 constexpr std::size_t kActivation = 0, kStretch = 1, kStress = 2;
 
-// Files by their frames' numbers: those of the bodies, and those of each bone.
-struct FrameFiles {
-    std::vector<std::string> bodies;
-    std::map<std::string, std::vector<std::string>> bones;
-};
-
-FrameFiles files_of(const RunJson& run) {
-    FrameFiles files;
-    for (const std::string& name : texts_of(run, "files")) {
-        const fs::path path(name);
-        if (name.starts_with("frames/") && path.extension() == ".vtu") files.bodies.push_back(name);
-        const std::string stem = path.stem().string();
-        const std::size_t last = stem.rfind('_');
-        if (name.starts_with("bones/") && path.extension() == ".vtp" && last != std::string::npos)
-            files.bones[stem.substr(0, last)].push_back(name);
-    }
-    return files;
-}
-
-const std::vector<double>& values_of(const meshfiles::MeshArrays& arrays, const char* name,
-                                     const fs::path& file) {
-    for (const meshfiles::NamedArray& array : arrays.cells)
-        if (array.name == name) return array.values;
-    throw InputError(file.string() + ": has no array '" + name +
-                     "', which each frame of a contraction has; make the results again");
-}
-
 // sqrt(3/2 s : s), s the deviator of the stress (R. von Mises 1913).
 double mises_stress(const double* stress) {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> sigma(stress);
@@ -69,14 +42,18 @@ struct Part {
 
 std::vector<Part> parts_of(const TetMesh& mesh, const std::vector<double>& body, std::size_t bodies,
                            const fs::path& file) {
+    if (body.size() != mesh.tets.size())
+        throw InputError(folder.string() +
+                         ": the first frame has not a body a tetrahedron; make "
+                         "the results again");
     std::vector<Part> parts(bodies);
     std::vector<std::vector<char>> used(bodies, std::vector<char>(mesh.points.size(), 0));
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const double b = body[t];
         if (!(b >= 0 && b < static_cast<double>(bodies)))
-            throw InputError(file.string() + ": tetrahedron " + std::to_string(t) +
-                             " is of a body that report.json does not name; make the results "
-                             "again");
+            throw InputError(folder.string() + ": tetrahedron " + std::to_string(t) +
+                             " of the frames is of a body that report.json does not name; make "
+                             "the results again");
         parts[static_cast<std::size_t>(b)].tets.push_back(static_cast<std::int32_t>(t));
         for (const std::int32_t n : mesh.tets[t]) used[static_cast<std::size_t>(b)][n] = 1;
     }
@@ -101,25 +78,30 @@ TetMesh mesh_of(const TetMesh& whole, const Part& part) {
     return mesh;
 }
 
+// Frames are of one mesh, unless a file was changed.
+void require_same_mesh(const ContractFrame& frame, const TetMesh& mesh, const fs::path& folder) {
+    const std::size_t tets = mesh.tets.size();
+    if (frame.points.size() != mesh.points.size() || frame.body.size() != tets ||
+        frame.activation.size() != tets || frame.stretch.size() != tets ||
+        frame.fibre.size() != 3 * tets || frame.stress.size() != 9 * tets)
+        throw InputError(folder.string() + ": the frame at " + shown(frame.time) +
+                         " s has another mesh than the first one; make the results again");
+}
+
 // What of a frame concerns one body.
-void add_moment(const TetMesh& mesh, const meshfiles::MeshArrays& arrays, const Part& part,
-                const fs::path& file, ViewedBody& body) {
-    std::vector<Vec3> points;
-    for (const std::int32_t n : part.points) points.push_back(mesh.points[n]);
-    body.moments.push_back(std::move(points));
-    const auto& activation = values_of(arrays, "activation", file);
-    const auto& stretch = values_of(arrays, "fiber_stretch", file);
-    const auto& fibre = values_of(arrays, "fiber", file);
-    const auto& stress = values_of(arrays, "cauchy_stress", file);
+void add_moment(const ContractFrame& frame, const Part& part, ViewedBody& body) {
+    std::vector<Vec3> points, fibres;
+    for (const std::int32_t n : part.points) points.push_back(frame.points[n]);
     std::vector<double> activations, stretches, stresses;
-    std::vector<Vec3> fibres;
     for (const std::int32_t t : part.tets) {
-        fibres.emplace_back(fibre[3 * t], fibre[3 * t + 1], fibre[3 * t + 2]);
+        const double* fibre = &frame.fibre[3 * static_cast<std::size_t>(t)];
+        fibres.emplace_back(fibre[0], fibre[1], fibre[2]);
         const bool fibred = fibres.back() != Vec3::Zero();
-        activations.push_back(fibred ? activation[t] : NAN);
-        stretches.push_back(fibred ? stretch[t] : NAN);
-        stresses.push_back(mises_stress(&stress[9 * static_cast<std::size_t>(t)]));
+        activations.push_back(fibred ? frame.activation[t] : NAN);
+        stretches.push_back(fibred ? frame.stretch[t] : NAN);
+        stresses.push_back(mises_stress(&frame.stress[9 * static_cast<std::size_t>(t)]));
     }
+    body.moments.push_back(std::move(points));
     body.fibres.push_back(std::move(fibres));
     body.values[kActivation].times.push_back(std::move(activations));
     body.values[kStretch].times.push_back(std::move(stretches));
@@ -140,8 +122,8 @@ std::vector<std::size_t> chosen_frames(std::size_t count, const TetMesh& mesh) {
 
 // The surface at rest, moved as its points move from frame to frame; false: they are not the
 // same points.
-bool add_bone(const std::string& name, const std::vector<std::string>& files,
-              const std::vector<std::size_t>& chosen, const fs::path& folder, ViewedScene& scene) {
+bool add_bone(const std::string& name, const ContractFrames& frames,
+              const std::vector<std::size_t>& chosen, ViewedScene& scene) {
     using Columns = Eigen::Matrix3Xd;
     const auto columns = [](const std::vector<Vec3>& points) {
         Columns made(3, static_cast<Eigen::Index>(points.size()));
@@ -152,8 +134,8 @@ bool add_bone(const std::string& name, const std::vector<std::string>& files,
     ViewedBody bone{.name = name, .colour = kBone};
     Columns rest;
     for (const std::size_t frame : chosen) {
-        if (frame >= files.size()) return false;
-        const TriMesh surface = meshfiles::read_surface(file_in(folder, files[frame]));
+        const TriMesh surface = frames.bone(name, frame);
+        if (surface.points.empty()) return false;
         const Columns now = columns(surface.points);
         if (bone.moments.empty()) {
             rest = now;
@@ -215,35 +197,35 @@ void add_bodies(const RunJson& run, const TetMesh& first, const std::vector<Part
 
 ViewedScene contraction_scene(const RunJson& run, const fs::path& folder) {
     ViewedScene made;
-    const FrameFiles files = files_of(run);
-    if (files.bodies.empty()) {
-        made.notes.emplace_back("There are no frames in .vtu files, which the 3D view is made of.");
+    const ContractFrames frames(run, folder);
+    if (frames.count() == 0) {
+        made.notes.emplace_back("No frames were written.");
         return made;
     }
+    TetMesh mesh{.points = {}, .tets = frames.tets()};
     std::vector<Part> parts;
     std::vector<std::size_t> chosen{0};
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const fs::path file = file_in(folder, files.bodies[chosen[i]]);
-        const TetMesh mesh = meshfiles::read_vtu(file);
-        const meshfiles::MeshArrays arrays = meshfiles::read_vtu_arrays(file);
+        const ContractFrame frame = frames.frame(chosen[i]);
         if (i == 0) {
-            chosen = chosen_frames(files.bodies.size(), mesh);
-            parts = parts_of(mesh, values_of(arrays, "body", file), run.at("bodies").size(), file);
+            mesh.points = frame.points;
+            chosen = chosen_frames(frames.count(), mesh);
+            parts = parts_of(mesh, frame.body, run.at("bodies").size(), folder);
             add_bodies(run, mesh, parts, made);
         }
-        made.times.push_back(arrays.time.value_or(0));
-        for (std::size_t b = 0; b < parts.size(); ++b)
-            add_moment(mesh, arrays, parts[b], file, made.bodies[b]);
+        require_same_mesh(frame, mesh, folder);
+        made.times.push_back(frame.time);
+        for (std::size_t b = 0; b < parts.size(); ++b) add_moment(frame, parts[b], made.bodies[b]);
     }
     made.quantities = limits_of(made);
-    for (const auto& [name, of_bone] : files.bones)
-        if (!add_bone(name, of_bone, chosen, folder, made))
-            made.notes.push_back("The bone " + name +
+    for (const std::string& bone : frames.bones())
+        if (!add_bone(bone, frames, chosen, made))
+            made.notes.push_back("The bone " + bone +
                                  " has not the same points in each frame and "
                                  "is left out.");
-    if (chosen.size() < files.bodies.size())
+    if (chosen.size() < frames.count())
         made.notes.push_back("The view has " + std::to_string(chosen.size()) + " of " +
-                             std::to_string(files.bodies.size()) + " frames.");
+                             std::to_string(frames.count()) + " frames.");
     made.notes.emplace_back(
         "Colours of stress end at its 99th percentile, those of stretch at the 1st and the 99th. "
         "Bones of more than 20 000 triangles are decimated for the view.");

@@ -71,6 +71,7 @@ export function make({ run, folder }) {
   writeFileSync(join(folder, "plate.obj"), plate);
   writeFileSync(join(folder, "scene.yaml"), scene);
   run("contract", "scene.yaml", "-o", "out", "--quiet");
+  run("contract", "scene.yaml", "-o", "series", "--series", "xdmf", "--no-pictures", "--quiet");
 }
 
 export async function use({ browser, folder }) {
@@ -89,6 +90,17 @@ export async function use({ browser, folder }) {
   await timeMoves(page, first);
   await quantitiesChange(page);
   await fibresShow(page);
+  assert.deepEqual(wrong, []);
+  await close();
+  await seriesShowsTheSame(browser, join(folder, "series/report.html"), first);
+}
+
+async function seriesShowsTheSame(browser, file, first) {
+  const { page, wrong, close } = await openPage(browser, file);
+  await viewOpens(page);
+  assert.ok(difference(first, await picture(page)) < 0.001, "an XDMF series shows something else");
+  await page.getByLabel("time", { exact: true }).fill("4");
+  assert.ok(difference(first, await picture(page)) > 0.02, "its shape stays");
   assert.deepEqual(wrong, []);
   await close();
 }

@@ -10,6 +10,7 @@
 
 #include "Core/Errors.h"
 #include "MeshFiles/Hdf5.h"
+#include "MeshFiles/SeriesRead.h"
 #include "Support/TemporaryFolder.h"
 
 namespace myotet::meshfiles {
@@ -146,6 +147,40 @@ TEST_F(Series, WhatCannotBeWrittenIsRefusedWithoutAFile) {
     grids = two_grids();
     grids[1].points = 4;
     refuses(grids, kTimes, "frame_0000/bone_points has 9 numbers but must have 12");
+}
+
+TEST_F(Series, IsReadBack) {
+    write("a.xdmf");
+    const auto file = folder_ / "a.xdmf";
+    const SeriesContent content = read_series_content(file);
+    EXPECT_EQ(content.times, kTimes);
+    EXPECT_EQ(content.grids, (std::vector<std::string>{"bodies", "bone"}));
+    EXPECT_EQ(read_series_elements(file, "bodies", 4),
+              (std::vector<std::int32_t>{0, 1, 2, 3, 1, 2, 3, 4}));
+    EXPECT_EQ(read_series_elements(file, "bone", 3), (std::vector<std::int32_t>{0, 1, 2}));
+    for (std::size_t frame = 0; frame < kTimes.size(); ++frame) {
+        EXPECT_EQ(read_series_array(file, {frame, "bodies", "stress", 9}),
+                  numbers(frame, 0, "stress"));
+        EXPECT_EQ(read_series_array(file, {frame, "bone", kSeriesPoints, 3}),
+                  numbers(frame, 1, kSeriesPoints));
+    }
+    EXPECT_THROW((void)read_series_array(file, {3, "bodies", "J", 1}), InputError);
+    EXPECT_THROW((void)read_series_array(file, {0, "bodies", "J", 3}), InputError);
+    EXPECT_THROW((void)read_series_elements(file, "bodies", 3), InputError);
+}
+
+TEST_F(Series, OfOneGridIsReadBack) {
+    const std::vector<SeriesGrid> one{two_grids()[0]};
+    write_series(one, kTimes, numbers, folder_ / "one.xdmf");
+    EXPECT_EQ(read_series_content(folder_ / "one.xdmf").grids, std::vector<std::string>{"bodies"});
+}
+
+TEST_F(Series, ThatIsDamagedIsRefused) {
+    testing::write_bytes(folder_ / "a.xdmf", "<Xdmf><Domain>");
+    EXPECT_THROW((void)read_series_content(folder_ / "a.xdmf"), InputError);
+    testing::write_bytes(folder_ / "b.xdmf", "<Xdmf><Domain/></Xdmf>");
+    EXPECT_THROW((void)read_series_content(folder_ / "b.xdmf"), InputError);
+    EXPECT_THROW((void)read_series_content(folder_ / "gone.xdmf"), IoError);
 }
 
 }  // namespace
