@@ -250,6 +250,20 @@ std::string census_html(const RunJson& run, const MeshViews& views) {
                          : report::list_html(lost));
 }
 
+// What the slices show, and what of the run they do not.
+std::string slices_caption(const RunJson& run) {
+    std::string text =
+        "The scan's labels in pale colours, other labels grey, with the outlines of the meshes.";
+    const bool mended = !run.at("repair").empty();
+    const bool closed =
+        run.at("gaps").is_object() && number_of(run.at("gaps"), "closed_voxels") > 0;
+    if (mended || closed)
+        text += std::string(" The labels are as the file has them: where ") +
+                (mended ? "the recipe mended them" : "gaps were closed") +
+                ", outlines and labels differ.";
+    return text;
+}
+
 }  // namespace
 
 report::Page mesh_page(const RunJson& run, const MeshViews& views) {
@@ -267,9 +281,7 @@ report::Page mesh_page(const RunJson& run, const MeshViews& views) {
         {"slices", "Slices",
          slices.empty()
              ? report::paragraph(views.no_scan.empty() ? "No mesh was written." : views.no_scan)
-             : report::paragraph("The scan's labels in pale colours, other labels grey, "
-                                 "with the outlines of the meshes.") +
-                   slices});
+             : report::paragraph(slices_caption(run)) + slices});
     page.sections.push_back(notes_section(run, notes_html(run)));
     page.sections.push_back(run_section(run, {"input", "input_sha256", "output"}));
     return page;

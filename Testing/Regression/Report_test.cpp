@@ -282,5 +282,14 @@ TEST_F(ReportPage, RefusesDamageAndKeepsThePageOfBefore) {
     expect_refused("5_biceps.vtu");
 }
 
+TEST_F(ReportPage, SlicesSayThatTheyShowTheLabelsBeforeTheyWereMended) {
+    const char* const sentence = "where the recipe mended them, outlines and labels differ";
+    mesh();
+    EXPECT_THAT(page(), Not(HasSubstr(sentence)));
+    write_bytes(folder_ / "recipe.yaml", "steps:\n  - {keep_largest: biceps}\n");
+    mesh({"--repair", (folder_ / "recipe.yaml").string()});
+    EXPECT_THAT(page(), HasSubstr(sentence));
+}
+
 }  // namespace
 }  // namespace myotet
