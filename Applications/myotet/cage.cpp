@@ -36,9 +36,10 @@ void add_cage_options(CLI::App& command, cage::Options& cage) {
     command
         .add_option("--angle", cage.angle_deg,
                     "smallest dihedral angle to be content with, degrees; what is left goes into "
-                    "a closer fit (default: shapes as good as can be)")
-        ->check(CLI::Range(1.0, 59.0))
-        ->type_name("DEG");
+                    "a closer fit")
+        ->check(CLI::Range(1.0, 60.0))
+        ->type_name("DEG")
+        ->capture_default_str();
     command
         .add_option("--tries", cage.tries,
                     "lattices to try, the first as it is, the others turned and shifted; the best "

@@ -116,17 +116,18 @@ std::optional<Outcome> run(const Task& task, int number, const std::function<boo
     const double offset = asked.offset_ratio * task.cell;
     if (stopped()) return std::nullopt;
     facts.adjust_steps = adjust(walls, {.offset = offset});
-    RelaxOptions relaxing{.offset = offset,
-                          .cell = task.cell,
-                          .seed = asked.seed + static_cast<std::uint64_t>(number)};
-    if (asked.angle_deg > 0) relaxing.goal = asked.angle_deg;
+    const RelaxOptions relaxing{.offset = offset,
+                                .cell = task.cell,
+                                .goal = asked.angle_deg,
+                                .seed = asked.seed + static_cast<std::uint64_t>(number)};
     const ReachSummary reached = reach(walls, relaxing, stopped);
     facts.jumps = reached.jumps;
     facts.collapsed = reached.collapsed;
     facts.refined = reached.refined;
     facts.relax_rounds = reached.rounds;
+    facts.reached = reached.reached;
     relax(walls, relaxing, facts, stopped);
-    if (asked.angle_deg > 0) draw_close(walls, relaxing, facts, stopped);
+    if (facts.reached) draw_close(walls, relaxing, facts, stopped);
     if (stopped()) return std::nullopt;
     facts.tets = static_cast<std::int64_t>(body.tets.size());
     facts.reached = farthest(walls) <= offset;
@@ -141,8 +142,7 @@ std::optional<Outcome> run(const Task& task, int number, const std::function<boo
 bool better(const Try& a, const Try& b, const Options& options) {
     if (a.enclosed != b.enclosed) return a.enclosed;
     if (a.reached != b.reached) return a.reached;
-    const double enough = options.angle_deg > 0 ? options.angle_deg : 90;
-    const bool both = std::min(a.score_deg, b.score_deg) >= enough;
+    const bool both = std::min(a.score_deg, b.score_deg) >= options.angle_deg;
     return both ? a.volume < b.volume : a.score_deg > b.score_deg;
 }
 
@@ -187,7 +187,7 @@ void Options::validate() const {
     require(cell > 0 || tets >= 24, "tets", static_cast<double>(tets), "at least 24, a snowflake");
     require(offset_ratio > 0 && std::isfinite(offset_ratio), "offset_ratio", offset_ratio,
             "above 0");
-    require(angle_deg >= 0 && angle_deg < 60, "angle_deg", angle_deg, "between 0 and 60 degrees");
+    require(angle_deg > 0 && angle_deg <= 60, "angle_deg", angle_deg, "above 0, and 60 at most");
     require(tries >= 1, "tries", tries, "at least 1");
 }
 

@@ -38,12 +38,16 @@ struct Asked {
     double ratio, least, most;
 };
 constexpr Asked kAsked[] = {{0.2, 24, 145}, {0.4, 30, 138}, {0.6, 36, 128}, {0.8, 45, 115}};
+// A degree to spare, since the least angles are drawn down to what is enough.
+constexpr double kSpare = 1;
 
 TEST(Cage, ABananaAtEveryRatio) {
     const TriMesh surface = banana();
     double volume_before = 1;
     for (const Asked& a : kAsked) {
-        const Cage cage = cage_of(surface, {.cell = 8, .offset_ratio = a.ratio, .tries = 2});
+        const Cage cage = cage_of(
+            surface,
+            {.cell = 8, .offset_ratio = a.ratio, .angle_deg = a.least + kSpare, .tries = 2});
         expect_promises(cage, surface);
         EXPECT_GE(cage.measures.min_dihedral_deg, a.least) << a.ratio;
         EXPECT_LE(cage.measures.max_dihedral_deg, a.most) << a.ratio;
@@ -95,7 +99,7 @@ TEST(Cage, AboutAsManyTetrahedraAsAskedFor) {
 
 TEST(Cage, AnAngleToBeContentWithBuysACloserFit) {
     const TriMesh surface = banana();
-    const Cage best = cage_of(surface, {.cell = 8, .offset_ratio = 0.6});
+    const Cage best = cage_of(surface, {.cell = 8, .offset_ratio = 0.6, .angle_deg = 60});
     const Cage close = cage_of(surface, {.cell = 8, .offset_ratio = 0.6, .angle_deg = 30});
     expect_promises(close, surface);
     EXPECT_GE(close.measures.min_dihedral_deg, 29);

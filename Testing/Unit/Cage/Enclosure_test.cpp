@@ -103,7 +103,7 @@ TEST(RequireClosed, SaysWhereASurfaceIsOpenOrMeetsItself) {
         FAIL();
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), HasSubstr("open: 3 edges"));
-        EXPECT_THAT(e.what(), HasSubstr("the first at (1, "));
+        EXPECT_THAT(e.what(), HasSubstr("the first at (0, 1, 0) mm"));
     }
     const TriMesh crossed = together(block(Vec3::Zero(), Vec3::Constant(2)),
                                      block(Vec3::Constant(1.5), Vec3::Constant(3)));
