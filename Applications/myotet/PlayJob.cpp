@@ -5,6 +5,7 @@
 #include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
+#include "Core/Text.h"
 #include "Machine.h"
 #include "Outputs.h"
 #include "Pictures.h"
@@ -49,6 +50,16 @@ Prepared prepare(const PlayJobOptions& options, PlayReport& report, ProgressSink
     return made;
 }
 
+// What is inside of something else at the start is pushed out, which drives it.
+void warn_of_overlap(PlayReport& report, ProgressSink& progress) {
+    if (report.run.history.rows.empty()) return;
+    const double deepest = report.run.history.rows.front()[play::kDeepestColumn];
+    if (!(deepest > 0)) return;
+    report.warnings.push_back("at the start things are inside each other, by up to " +
+                              rounded(deepest) + " mm; place them farther apart");
+    progress.warn(report.warnings.back());
+}
+
 }  // namespace
 
 PlayReport check_play(const PlayJobOptions& options, ProgressSink& progress) {
@@ -78,6 +89,7 @@ PlayReport run_play_job(const PlayJobOptions& options, ProgressSink& progress) {
         };
     Stopwatch watch;
     report.run = play::run_play(prepared.scene, prepared.world, running, progress);
+    warn_of_overlap(report, progress);
     report.seconds["steps"] = report.run.seconds;
     report.seconds["measures and files"] = watch.lap() - drawing - report.run.seconds;
     if (options.pictures) {

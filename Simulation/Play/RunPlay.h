@@ -65,5 +65,7 @@ struct PlaySummary {
 /// Names of what run_play writes.
 inline constexpr const char* kPlayCollection = "play.pvd";
 inline constexpr const char* kPlayHistory = "history.csv";
+/// Of the history's columns, the deepest penetration.
+inline constexpr std::size_t kDeepestColumn = 6;
 
 }  // namespace myotet::play

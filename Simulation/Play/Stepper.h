@@ -15,7 +15,7 @@ struct State {
 struct StepOptions {
     int iterations = 8;  ///< of Newton's method in a part of a step, at most
     /// Ends when an iteration moved no node farther, in mean edges of the finest mesh.
-    double tolerance = 1e-2;
+    double tolerance = 3e-2;
     int parts = 4;  ///< that a step may be cut into where things close in on each other fast
     SolveOptions linear;
     /// Throws InputError naming the field, its value and the rule.

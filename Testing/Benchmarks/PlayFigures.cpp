@@ -121,7 +121,7 @@ TEST(PlayFigures, PileOfTwelve) {
     std::printf("%zu tetrahedra, 12 bodies, 96 000 embedded vertices\n", tets);
     const Played played = play_on(world, 120, kStep);
     print("pile", played);
-    EXPECT_GE(played.steps / played.seconds, 60) << "asked: 20; its own clock: 60";
+    EXPECT_GE(played.steps / played.seconds, 20);
     EXPECT_GT(played.least, 0);
     EXPECT_LT(played.deepest, 2);
 }
