@@ -41,7 +41,7 @@ struct Part {
 };
 
 std::vector<Part> parts_of(const TetMesh& mesh, const std::vector<double>& body, std::size_t bodies,
-                           const fs::path& file) {
+                           const fs::path& folder) {
     if (body.size() != mesh.tets.size())
         throw InputError(folder.string() +
                          ": the first frame has not a body a tetrahedron; make "
