@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds Myotet, makes a phantom of an arm, meshes it and makes its muscles contract; then
-# a moving skeleton lifts a dumbbell with it.
+# a moving skeleton lifts a dumbbell with it; a hollow ball is pressed.
 # May be run again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -17,6 +17,9 @@ myotet=build/release/bin/myotet
 "$myotet" activate Data/arm/arm.osim Data/arm/curl.yaml --hold shoulder_flexion \
   -o results/activations
 "$myotet" contract Data/scenes/curl.yaml -o results/curl
+"$myotet" phantom shell -o results/shell.nii.gz
+"$myotet" press results/shell.nii.gz --tool Data/tools/press_shell.yaml --levels 1 \
+  -o results/press
 
 cat <<END
 
@@ -34,6 +37,7 @@ Its biceps and triceps, which contract and relax, are in results/isometric:
   history.csv                forces, lengths, volumes
 The activations with which it lifts a dumbbell are in results/activations
 (activation.png, activation.sto), the biceps that does so in results/curl.
+A hollow ball that is pressed and comes back is in results/press (report.html).
 To look at the meshes: paraview results/arm/*.vtu   (then press Apply)
 To mesh your own scan: $myotet mesh SCAN.nii.gz -o FOLDER
 END

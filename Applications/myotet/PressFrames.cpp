@@ -15,7 +15,7 @@ using membrane::Tool;
 
 constexpr int kWidth = 480, kHeight = 560;  // of one view, pixels
 constexpr double kEdgeWidth = 0.0012;       // of what is shown, mm a mm
-constexpr report::Colour kEdge{0.25, 0.25, 0.3}, kSteel{0.72, 0.76, 0.82};
+constexpr report::Colour kEdge{0.25, 0.25, 0.3}, kSteel{0.62, 0.68, 0.78}, kWall{0.97, 0.9, 0.84};
 
 // A ball by circles of latitude.
 TriMesh ball(const Vec3& centre, double radius) {
@@ -66,38 +66,64 @@ double level_of(const membrane::Levels& levels, std::int32_t v) {
     return level;
 }
 
-// Each triangle as a smaller one that is coloured and a border that is not.
-report::Shape with_edges(const PressFrame& frame, double width) {
+// Each triangle as a smaller one, coloured where it has moved, and a dark border.
+std::array<report::Shape, 2> with_edges(const PressFrame& frame, const PressView& view) {
+    constexpr double kMoved = 0.02;  // of the largest displacement
+    const double width = kEdgeWidth * view.fit.diagonal();
     const auto& displacement = frame.arrays.points[3].values;
     const auto moved = [&](std::int32_t v) {
         return Vec3(displacement[3 * v], displacement[3 * v + 1], displacement[3 * v + 2]).norm();
     };
-    report::Shape shape{.surface = {.points = frame.surface.points}, .colour = kEdge};
-    auto& [points, triangles] = shape.surface;
+    report::Shape inside{.surface = {}, .colour = kWall},
+        border{.surface = {.points = frame.surface.points}, .colour = kEdge};
     for (const auto& [a, b, c] : frame.surface.triangles) {
+        auto& points = border.surface.points;
         const Vec3 x = points[a], y = points[b], z = points[c], centre = (x + y + z) / 3;
         const double inner =
             (y - x).cross(z - x).norm() / ((y - x).norm() + (z - y).norm() + (x - z).norm());
         const double part = std::max(0.5, 1 - width / std::max(inner, width));
-        const auto first = static_cast<std::int32_t>(points.size());
-        for (const Vec3& p : {x, y, z}) points.push_back(centre + part * (p - centre));
-        triangles.push_back({first, first + 1, first + 2});
-        shape.values.push_back((moved(a) + moved(b) + moved(c)) / 3);
+        const auto first = static_cast<std::int32_t>(points.size()),
+                   own = static_cast<std::int32_t>(inside.surface.points.size());
+        for (const Vec3& p : {x, y, z}) {
+            points.push_back(centre + part * (p - centre));
+            inside.surface.points.push_back(points.back());
+        }
+        inside.surface.triangles.push_back({own, own + 1, own + 2});
+        const double mean = (moved(a) + moved(b) + moved(c)) / 3;
+        inside.values.push_back(mean > kMoved * view.most ? mean : std::nan(""));
         const std::array<std::int32_t, 3> outside{a, b, c};
         for (std::int32_t i = 0; i < 3; ++i) {
             const std::int32_t j = (i + 1) % 3;
-            triangles.push_back({outside[i], outside[j], first + j});
-            triangles.push_back({outside[i], first + j, first + i});
-            shape.values.insert(shape.values.end(), 2, std::nan(""));
+            border.surface.triangles.push_back({outside[i], outside[j], first + j});
+            border.surface.triangles.push_back({outside[i], first + j, first + i});
         }
     }
-    return shape;
+    return {inside, border};
 }
 
 Vec3 up_for(const Vec3& direction) {
     constexpr double kAlong = 0.9;
     // In LPS the head is +z, the front -y.
     return std::abs(direction.z()) > kAlong ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitZ());
+}
+
+// The box about its middle made smaller, so that what it holds fills the picture.
+Box tightened(const PressView& view, const Vec3& direction) {
+    const Vec3 right = direction.cross(up_for(direction)).normalized(),
+               up = right.cross(direction).normalized(), centre = view.fit.centre(),
+               half = view.fit.extent() / 2;
+    double widest = 0, highest = 0;
+    for (const Vec3& p : view.points) {
+        widest = std::max(widest, std::abs(right.dot(p - centre)));
+        highest = std::max(highest, std::abs(up.dot(p - centre)));
+    }
+    constexpr double kRoom = 1.15;
+    const double part =
+        kRoom * std::max(widest / right.cwiseAbs().dot(half), highest / up.cwiseAbs().dot(half));
+    Box box;
+    box.include(centre - part * half);
+    box.include(centre + part * half);
+    return box;
 }
 
 report::Picture draw_from(std::span<const report::Shape> shapes, const PressView& view,
@@ -110,7 +136,7 @@ report::Picture draw_from(std::span<const report::Shape> shapes, const PressView
                                  .most = view.most,
                                  .values_name = "displacement, mm",
                                  .title = title,
-                                 .fit = view.fit});
+                                 .fit = tightened(view, direction)});
 }
 
 }  // namespace
@@ -182,14 +208,13 @@ PressView view_of(const membrane::Loads& loads) {
 report::Picture frame_picture(const PressFrame& frame, const PressView& view) {
     char title[64];
     const double time = frame.arrays.time.value_or(0);
-    const report::Shape organ = with_edges(frame, kEdgeWidth * view.fit.diagonal());
-    std::vector<report::Shape> shapes{organ};
+    const auto organ = with_edges(frame, view);
+    std::vector<report::Shape> shapes{organ[0], organ[1]};
     for (const TriMesh& tool : frame.tools) shapes.push_back({.surface = tool, .colour = kSteel});
     std::snprintf(title, sizeof title, "from the side, t = %.3f s", time);
     const report::Picture beside = draw_from(shapes, view, view.beside, title);
     std::snprintf(title, sizeof title, "as pressed, t = %.3f s", time);
-    const report::Picture both[] = {
-        beside, draw_from(std::span(shapes).first(1), view, view.behind, title)};
+    const report::Picture both[] = {beside, draw_from(organ, view, view.behind, title)};
     return report::tile(both, 2);
 }
 

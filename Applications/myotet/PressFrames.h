@@ -22,8 +22,9 @@ struct PressFrame {
 struct PressView {
     Vec3 beside = Vec3::UnitY();  ///< looking across the way that tools press
     Vec3 behind = Vec3::UnitX();  ///< looking the way they press, a little from above
-    Box fit;
-    double most = 1;  ///< displacement at the end of the colour map, mm
+    Box fit;                      ///< about `points`
+    std::vector<Vec3> points;     ///< of the organ in all pictures, mm
+    double most = 1;              ///< displacement at the end of the colour map, mm
 };
 
 /// From the loads: along the first tool's or patch's way; without these, from the front
@@ -31,7 +32,7 @@ struct PressView {
 [[nodiscard]] PressView view_of(const membrane::Loads& loads);
 
 /// The organ from beside, with its tools, and from behind these without them, triangles'
-/// edges drawn, both coloured by displacement.
+/// edges drawn, coloured by displacement where that is at least a fiftieth of the largest.
 [[nodiscard]] report::Picture frame_picture(const PressFrame& frame, const PressView& view);
 
 }  // namespace myotet::app

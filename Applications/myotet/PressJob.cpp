@@ -137,14 +137,15 @@ public:
         view.most = 0;
         for (const PressFrame& frame : frames_) {
             for (const Vec3& p : frame.surface.points) view.fit.include(p);
+            view.points.insert(view.points.end(), frame.surface.points.begin(),
+                               frame.surface.points.end());
             const auto& moved = frame.arrays.points[3].values;
             for (std::size_t i = 0; i < moved.size(); i += 3)
                 view.most = std::max(view.most, Vec3(moved[i], moved[i + 1], moved[i + 2]).norm());
         }
-        constexpr double kRoom = 0.08, kLeastScale = 0.01;  // of the diagonal; mm
-        const Vec3 room = Vec3::Constant(kRoom * view.fit.diagonal());
-        view.fit.min -= room;
-        view.fit.max += room;
+        constexpr double kRoom = 1e-3, kLeastScale = 0.01;  // mm; so that flat ones have a box
+        view.fit.min.array() -= kRoom;
+        view.fit.max.array() += kRoom;
         view.most = std::max(view.most, kLeastScale);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             progress.check();

@@ -36,10 +36,11 @@ std::string strip_html(const RunJson& run, const fs::path& folder) {
                        report::escaped(stem + ": the organ from the side and as it is pressed") +
                        "\"/>"});
     }
-    return report::to_html(strip) +
-           report::paragraph(
-               "Coloured by displacement; tools are grey, and left out at the right. Triangles "
-               "are small where the surface is refined.");
+    return report::to_html(strip) + report::paragraph(
+                                        "Coloured by displacement where it is worth mention; tools "
+                                        "are grey, and left out at "
+                                        "the right. Triangles "
+                                        "are small where the surface is refined.");
 }
 
 // A kind of quantity by the end of its columns' names.

@@ -134,12 +134,6 @@ private:
     }
 };
 
-Mat3 cross_with(const Vec3& a) {
-    Mat3 m;
-    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-    return m;
-}
-
 // Beyond, an edge points back to where it came from and no turn is the least.
 constexpr double kOpposite = 1e-6;
 
@@ -152,16 +146,28 @@ Vec3 turned_offset(const Hanging& h, const Vec3& edge) {
     return c * h.offset + w.cross(h.offset) + w.dot(h.offset) / (1 + c) * w;
 }
 
-Mat3 turning(const Hanging& h, const Vec3& edge) {
+// With o x, u0 x as matrices and P = (1 - u u^T) / |b - a|,
+// J = (o u0^T - (o x)(u0 x) + (w . o (u0 x) + w (o^T (u0 x))) / (1 + c)
+//      - w . o / (1 + c)^2 w u0^T) P
+Vec3 turned_by(const Hanging& h, const Vec3& edge, const Vec3& change) {
     const double length = edge.norm();
-    const Vec3 &o = h.offset, u = edge / length, w = h.edge.cross(u);
-    const double c = h.edge.dot(u);
-    if (!(1 + c > kOpposite)) return Mat3::Zero();
-    const Mat3 by_w = cross_with(h.edge);  // w = by_w u
-    const Mat3 by_u = o * h.edge.transpose() - cross_with(o) * by_w +
-                      (w.dot(o) * by_w + w * (o.transpose() * by_w)) / (1 + c) -
-                      w.dot(o) / ((1 + c) * (1 + c)) * w * h.edge.transpose();
-    return by_u * (Mat3::Identity() - u * u.transpose()) / length;
+    const Vec3 &o = h.offset, &from = h.edge, u = edge / length, w = from.cross(u);
+    const double c1 = 1 + from.dot(u), wo = w.dot(o);
+    if (!(c1 > kOpposite)) return Vec3::Zero();
+    const Vec3 q = (change - u.dot(change) * u) / length, across = from.cross(q);
+    const double along = from.dot(q);
+    return along * o - o.cross(across) + wo / c1 * across +
+           (o.dot(across) / c1 - wo * along / (c1 * c1)) * w;
+}
+
+Vec3 couple_of(const Hanging& h, const Vec3& edge, const Vec3& f) {
+    const double length = edge.norm();
+    const Vec3 &o = h.offset, &from = h.edge, u = edge / length, w = from.cross(u);
+    const double c1 = 1 + from.dot(u), wo = w.dot(o), wf = w.dot(f);
+    if (!(c1 > kOpposite)) return Vec3::Zero();
+    const Vec3 by_u = (o.dot(f) - wo * wf / (c1 * c1)) * from - from.cross(o.cross(f)) +
+                      wo / c1 * f.cross(from) + wf / c1 * o.cross(from);
+    return (by_u - u.dot(by_u) * u) / length;
 }
 
 Active make_active(const Levels& levels, const Selection& selection,

@@ -55,9 +55,11 @@ struct Hanging {
     Vec3 edge = Vec3::UnitX();   ///< unit, from a to b, then
 };
 
-/// R o for the edge as it is now, (b - a); and how it depends on that.
+/// R o for the edge b - a as it is now; J d for a change d of the edge and J^T f for a
+/// force f on the node, with J how R o depends on the edge.
 [[nodiscard]] Vec3 turned_offset(const Hanging& hanging, const Vec3& edge);
-[[nodiscard]] Mat3 turning(const Hanging& hanging, const Vec3& edge);
+[[nodiscard]] Vec3 turned_by(const Hanging& hanging, const Vec3& edge, const Vec3& change);
+[[nodiscard]] Vec3 couple_of(const Hanging& hanging, const Vec3& edge, const Vec3& force);
 
 /// What is computed with: the nodes and springs of the triangles in use.
 struct Active {

@@ -28,7 +28,7 @@ double resistance(const Tool& tool, const Vec3& at, const std::vector<Near>& nod
 template <class Function>
 double root_between(double low, double at_low, double high, double at_high, const Function& f) {
     constexpr int kMost = 60;
-    constexpr double kGood = 1e-12;
+    constexpr double kGood = 1e-14;  // mm, as far as places of some 100 mm are told
     for (int i = 0; i < kMost && high - low > kGood; ++i) {
         const double middle = (low * at_high - high * at_low) / (at_high - at_low);
         const double value = f(middle);

@@ -94,6 +94,21 @@ double drawn_volume(const Active& active, std::span<const Vec3> x) {
     return six / 6;
 }
 
+// The wall against itself: (u - sum w v)^2 <= 2 u^2 + 2 sum w v^2, the weights w of corners
+// being one together; as if one node stood on each corner.
+void add_facing(const Body& body, std::vector<Mat3>& stiffness) {
+    const double per_mass = 2 * body.wall.contact_stiffness * area_of_mass(body.wall);
+    std::vector<double> most(body.facing.nodes.empty() ? 0 : stiffness.size(), 0);
+    for (const Facing& facing : body.facing.nodes) {
+        const double here = per_mass * body.active.mass[facing.node];
+        stiffness[facing.node].diagonal().array() += here;
+        for (std::size_t p = facing.first; p < facing.last; ++p)
+            for (const std::int32_t v : body.facing.parts[p].corners)
+                most[v] = std::max(most[v], here);
+    }
+    for (std::size_t v = 0; v < most.size(); ++v) stiffness[v].diagonal().array() += most[v];
+}
+
 }  // namespace
 
 void prepare(Body& body) {
@@ -118,7 +133,7 @@ void follow(const Active& active, Motion& motion) {
         const Vec3 edge = motion.x[h.b] - motion.x[h.a];
         motion.x[h.node] = 0.5 * (motion.x[h.a] + motion.x[h.b]) + turned_offset(h, edge);
         motion.v[h.node] = 0.5 * (motion.v[h.a] + motion.v[h.b]) +
-                           turning(h, edge) * (motion.v[h.b] - motion.v[h.a]);
+                           turned_by(h, edge, motion.v[h.b] - motion.v[h.a]);
     }
 }
 
@@ -135,7 +150,7 @@ double find_forces(const Body& body, const Motion& motion, NodeForces& forces) {
     for (std::size_t k = body.active.hanging.size(); k-- > 0;) {
         const Hanging& h = body.active.hanging[k];
         const Vec3 force = forces.total[h.node],
-                   couple = turning(h, motion.x[h.b] - motion.x[h.a]).transpose() * force;
+                   couple = couple_of(h, motion.x[h.b] - motion.x[h.a], force);
         forces.total[h.a] += 0.5 * force - couple;
         forces.total[h.b] += 0.5 * force + couple;
     }
@@ -173,15 +188,7 @@ double stable_step(const Body& body) {
             damping[i] += 2 * s.damping * n * n.transpose();
         }
     }
-    // (u - sum w v)^2 <= 2 u^2 + 2 sum w v^2, the weights of corners being one together.
-    for (const Facing& facing : body.facing.nodes) {
-        const double most = 2 * wall.contact_stiffness * per_mass * active.mass[facing.node];
-        stiffness[facing.node].diagonal().array() += most;
-        for (std::size_t t = facing.first; t < facing.last; ++t)
-            for (const std::int32_t v : body.facing.triangles[t])
-                stiffness[v].diagonal().array() +=
-                    most / static_cast<double>(facing.last - facing.first);
-    }
+    add_facing(body, stiffness);
     for (std::size_t k = active.hanging.size(); k-- > 0;)
         for (const std::int32_t i : {active.hanging[k].a, active.hanging[k].b}) {
             stiffness[i] += stiffness[active.hanging[k].node] / 2;

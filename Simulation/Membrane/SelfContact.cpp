@@ -28,20 +28,6 @@ Vec3 normal_of(const Triangle& t, std::span<const Vec3> x) {
     return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).stableNormalized();
 }
 
-// From the triangle's nearest point to a node; positive on the side told.
-struct Away {
-    Vec3 direction;
-    double distance;
-    std::array<double, 3> weights;
-};
-Away away_from(const Triangle& t, const Vec3& node, double side, std::span<const Vec3> x) {
-    const Nearest near = nearest_of(x[t[0]], x[t[1]], x[t[2]], node);
-    const Vec3 line = node - near.point, n = side * -normal_of(t, x);
-    const double far = line.norm();
-    const double sign = line.dot(n) < 0 ? -1 : 1;
-    return {far > 0 ? Vec3(sign / far * line) : n, sign * far, near.weights};
-}
-
 // A drawn triangle as a ball about its middle.
 struct Part {
     Triangle corners;
@@ -69,14 +55,13 @@ bool faces(const Part& part, const Vec3& at, const Vec3& normal, const Vec3& res
            rest.dot(part.rest_normal) < kFacing;
 }
 
-// On which side of a part a node is at rest, and the gap that is kept.
-void settle(const Part& part, const Levels& levels, const Wall& wall, Facing& facing) {
+// By the distance at rest, and whether cavity or outside lies between.
+double gap_of(const Part& part, std::int32_t node, const Levels& levels, const Wall& wall) {
     const auto& [a, b, c] = part.corners;
     const std::vector<Vec3>& rest = levels.rest;
-    const Vec3 line =
-        rest[facing.node] - nearest_of(rest[a], rest[b], rest[c], rest[facing.node]).point;
-    facing.side = line.dot(part.rest_normal) < 0 ? 1 : -1;
-    facing.gap = std::min(facing.side > 0 ? 2 * wall.thickness : 0.0, kKeptGap * line.norm());
+    const Vec3 line = rest[node] - nearest_of(rest[a], rest[b], rest[c], rest[node]).point;
+    const double kept = (line.dot(part.rest_normal) < 0 ? 2 : 0.5) * wall.thickness;
+    return std::min(kept, kKeptGap * line.norm());
 }
 
 }  // namespace
@@ -91,8 +76,7 @@ FacingWalls find_facing(const Levels& levels, const Wall& wall, const Active& ac
     FacingWalls facing;
     for (const std::int32_t v : active.nodes) {
         if (!(active.inertia[v] > 0)) continue;
-        Facing found{.node = v, .first = facing.triangles.size()};
-        double nearest = reach;
+        Facing found{.node = v, .first = facing.parts.size()};
         const double low = x[v].x() - reach - widest, high = x[v].x() + reach + widest;
         for (auto part = std::ranges::lower_bound(parts, low, {},
                                                   [](const Part& p) { return p.middle.x(); });
@@ -100,14 +84,10 @@ FacingWalls find_facing(const Levels& levels, const Wall& wall, const Active& ac
             if (!faces(*part, x[v], now[v], rest[v], reach)) continue;
             const auto& [a, b, c] = part->corners;
             if (a == v || b == v || c == v) continue;
-            const double far = (nearest_of(x[a], x[b], x[c], x[v]).point - x[v]).norm();
-            if (!(far < reach)) continue;
-            facing.triangles.push_back(part->corners);
-            if (!(far < nearest)) continue;
-            nearest = far;
-            settle(*part, levels, wall, found);
+            if ((nearest_of(x[a], x[b], x[c], x[v]).point - x[v]).norm() < reach)
+                facing.parts.push_back({part->corners, gap_of(*part, v, levels, wall)});
         }
-        found.last = facing.triangles.size();
+        found.last = facing.parts.size();
         if (found.last > found.first) facing.nodes.push_back(found);
     }
     return facing;
@@ -148,23 +128,23 @@ double add_self_contact(const FacingWalls& facing, const Wall& wall, const Activ
                         std::span<const Vec3> x, std::vector<Vec3>& force) {
     double held = 0;
     for (const Facing& f : facing.nodes) {
-        const Triangle* nearest = nullptr;
-        double least = 0;
+        const FacingPart* met = nullptr;
+        Nearest where{};
+        double depth = 0;
         for (std::size_t i = f.first; i < f.last; ++i) {
-            const Triangle& t = facing.triangles[i];
-            const double far =
-                (nearest_of(x[t[0]], x[t[1]], x[t[2]], x[f.node]).point - x[f.node]).squaredNorm();
-            if (nearest && !(far < least)) continue;
-            nearest = &t;
-            least = far;
+            const auto& [a, b, c] = facing.parts[i].corners;
+            const Nearest near = nearest_of(x[a], x[b], x[c], x[f.node]);
+            const double deep = facing.parts[i].gap - (x[f.node] - near.point).norm();
+            if (!(deep > depth)) continue;
+            met = &facing.parts[i];
+            where = near;
+            depth = deep;
         }
-        const Away away = away_from(*nearest, x[f.node], f.side, x);
-        const double depth = f.gap - away.distance;
-        if (!(depth > 0)) continue;
+        if (!met || !(depth < met->gap)) continue;
         const double stiffness = wall.contact_stiffness * area_of_mass(wall) * active.mass[f.node];
-        const Vec3 push = stiffness * depth * away.direction;
+        const Vec3 push = stiffness * depth * (x[f.node] - where.point).normalized();
         force[f.node] += push;
-        for (int i = 0; i < 3; ++i) force[(*nearest)[i]] -= away.weights[i] * push;
+        for (int i = 0; i < 3; ++i) force[met->corners[i]] -= where.weights[i] * push;
         held += stiffness * depth * depth;
     }
     return held / 2;

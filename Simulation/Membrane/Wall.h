@@ -22,8 +22,8 @@ struct Wall {
     double shape_damping_time = 1e-2;  ///< their damping over their stiffness, s
     double drag = 5;                   ///< force against velocity over mass, 1/s
     /// Of the wall against itself where it faced itself at rest, pressure over depth,
-    /// MPa/mm; 0: it passes through itself.
-    double contact_stiffness = 0.01;
+    /// MPa/mm; 0: it passes through itself, and no time goes into looking.
+    double contact_stiffness = 0;
     Stiffening stiffening = Stiffening::same_modulus;
 
     /// Throws InputError naming the field, its value and the rule.

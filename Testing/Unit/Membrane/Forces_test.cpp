@@ -111,7 +111,9 @@ TEST(MembraneForces, HangingNodesTurnWithTheirEdges) {
         slope.col(axis) = (turned_offset(h, now + kStep * Vec3::Unit(axis)) -
                            turned_offset(h, now - kStep * Vec3::Unit(axis))) /
                           (2 * kStep);
-    EXPECT_LT((turning(h, now) - slope).norm(), 1e-8);
+    const Vec3 some(0.4, -1.3, 0.7);
+    EXPECT_LT((turned_by(h, now, some) - slope * some).norm(), 1e-8);
+    EXPECT_LT((couple_of(h, now, some) - slope.transpose() * some).norm(), 1e-8);
     EXPECT_GT(slope.norm(), 1e-4);
 }
 

@@ -20,6 +20,7 @@ struct Flat {
     Active active = make_active(levels, wholly_refined(levels, 0), level_properties(levels, wall));
     std::vector<Vec3> x = levels.rest;
     Flat() {
+        wall.contact_stiffness = 0.01;
         for (Vec3& p : x) p.z() *= 0.05;
     }
     double energy(const FacingWalls& facing) const {
