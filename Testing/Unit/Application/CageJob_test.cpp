@@ -80,7 +80,8 @@ TEST_F(CageJob, AnOpenSurfaceIsRefusedWithWhereAndHealedWhenAsked) {
     EXPECT_THAT(refused.err, HasSubstr("is open: 3 edges"));
     EXPECT_THAT(refused.err, HasSubstr("--heal"));
     EXPECT_FALSE(fs::exists(out()));
-    const Ran healed = cage(file, {"--cell", "9", "--heal", "--offset-ratio", "0.6"});
+    const Ran healed =
+        cage(file, {"--cell", "9", "--heal", "--spacing", "1", "--offset-ratio", "0.6"});
     EXPECT_EQ(healed.code, 0) << healed.err;
 }
 
