@@ -23,7 +23,7 @@ constexpr int kHalvings = 12;
 constexpr double kRounding = 1e-12;
 // Mean edges that an iteration moves nodes by when there is nothing left to be gained.
 constexpr double kNothing = 1e-5;
-constexpr double kFrictionError = 0.03;
+constexpr double kFrictionError = 0.1;
 // What slides slower sticks, mm/s.
 constexpr double kSlip = 1;
 // Mean edges by which things may close in on each other in a part of a step.
