@@ -23,6 +23,7 @@ constexpr int kHalvings = 12;
 constexpr double kRounding = 1e-12;
 // Mean edges that an iteration moves nodes by when there is nothing left to be gained.
 constexpr double kNothing = 1e-5;
+constexpr double kFrictionError = 0.1;
 // What slides slower sticks, mm/s.
 constexpr double kSlip = 1;
 // Mean edges by which things may close in on each other in a part of a step.
@@ -33,6 +34,18 @@ void each_body(World& world, const Act& act) {
     parallel_for(0, world.bodies.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) act(b);
     });
+}
+
+// Whether what friction's springs pull, as they were set, is what it should be now: to a part
+// of the most that it may pull.
+bool friction_fits(std::span<const Touch> touches, double slip) {
+    double wrong = 0, most = 0;
+    for (const Touch& t : touches) {
+        const double limit = t.friction * t.stiffness * t.press, slide = t.slide.norm();
+        wrong += std::abs(t.drag - limit / std::max(slide, slip)) * slide;
+        most += limit;
+    }
+    return wrong <= kFrictionError * most;
 }
 
 dynamics::BlockMatrix pattern_of(const World& world) {
@@ -225,8 +238,8 @@ void Stepper::solve_step(double dt, State& state, StepReport& report) {
         for (const Vec3& by : d) farthest = std::max(farthest, by.squaredNorm());
         const double moved = s * std::sqrt(farthest) / edge_;
         for (std::size_t n = 0; n < next.x.size(); ++n) next.v[n] = (next.x[n] - state.x[n]) / dt;
-        settled =
-            moved <= options_.tolerance && (moved <= kNothing || energies(next).total() <= before);
+        settled = moved <= options_.tolerance && friction_fits(touches_.all, kSlip * dt) &&
+                  (moved <= kNothing || energies(next).total() <= before);
         ++report.iterations;
     }
     state = std::move(next);
