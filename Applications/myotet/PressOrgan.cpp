@@ -104,21 +104,35 @@ void triangulate(const Outside& outside, const LevelSet& phi, const OrganOptions
                  Organ& organ, ProgressSink& progress) {
     constexpr double kEven = 0.5;          // of the edge length, how short edges may get
     constexpr double kNoCurvature = 1000;  // refinement comes by levels, not by shape
+    constexpr double kNearEnough = 0.15;   // of the nodes asked for
+    constexpr int kTries = 4;
     const int nodes = options.nodes > 0 ? options.nodes : kOrganNodes;
     organ.edge_length =
         options.edge_length > 0 ? options.edge_length : edge_for(area_of(outside.surface), nodes);
-    const surface::Result made =
-        surface::make_surface(outside.surface, {.phi = field_of(phi), .trim = {}},
-                              {.edge_length = organ.edge_length,
-                               .smallest_edge_length = kEven * organ.edge_length,
-                               .curvature_factor = kNoCurvature},
-                              progress);
+    surface::Result made;
+    for (int attempt = 1;; ++attempt) {
+        made = surface::make_surface(outside.surface, {.phi = field_of(phi), .trim = {}},
+                                     {.edge_length = organ.edge_length,
+                                      .smallest_edge_length = kEven * organ.edge_length,
+                                      .curvature_factor = kNoCurvature},
+                                     progress);
+        // Bends make some edges shorter: then all are asked to be longer.
+        const double excess = static_cast<double>(made.mesh.points.size()) / nodes;
+        if (options.edge_length > 0 || std::abs(excess - 1) < kNearEnough || attempt == kTries)
+            break;
+        organ.edge_length *= std::sqrt(excess);
+    }
     const auto broken = surface::broken_promises(made.quality);
     if (!broken.empty())
         throw InputError(options.scan.input.string() + ": the surface of " + organ.name +
                          " cannot be in triangles of " + rounded(organ.edge_length) + " mm (" +
                          broken.front() + "); give a shorter --edge-length or more --nodes");
     organ.surface = made.mesh;
+    if (options.edge_length == 0 &&
+        !(std::abs(static_cast<double>(made.mesh.points.size()) / nodes - 1) < 2 * kNearEnough))
+        organ.notes.push_back("about " + std::to_string(nodes) + " nodes were asked for, but " +
+                              std::to_string(made.mesh.points.size()) +
+                              " came of it; edges could not be made longer");
 }
 
 void hold_near(const OrganOptions& options, const TissueSets& sets, Organ& organ) {

@@ -73,6 +73,7 @@ std::string curves_html(const fs::path& folder) {
             shown[c] = 1;
             report::Line line{.name = name.substr(0, name.size() - quantity.ending.size()),
                               .x = history.times};
+            if (line.name.empty()) line.name = "the organ";
             for (const auto& row : history.rows) line.y.push_back(row[c]);
             panel.lines.push_back(std::move(line));
         }

@@ -32,17 +32,18 @@ public:
     }
 
     Result run(ProgressSink& progress, const Observer& observer) {
+        std::int64_t looks = 0, lines = 0;
         double next_look = 0, next_line = 0;
         const double rounding = 1e-9 * options_.duration;
         while (result_.status == Status::finished) {
             if (motion_.time >= next_look - rounding) {
                 if (options_.detail == Detail::adaptive) look_and_adapt();
                 look_for_facing_walls();
-                next_look += options_.criteria.interval;
+                next_look = static_cast<double>(++looks) * options_.criteria.interval;
             }
             if (motion_.time >= next_line - rounding) {
                 write_line(observer);
-                next_line += options_.interval;
+                next_line = static_cast<double>(++lines) * options_.interval;
                 progress.report("membrane", std::min(1.0, motion_.time / options_.duration));
                 progress.check();
             }

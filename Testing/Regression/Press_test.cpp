@@ -171,8 +171,10 @@ TEST_F(Press, OptionsDoWhatTheySay) {
     EXPECT_EQ(loose["wall"]["shape_stiffness_MPa_per_mm"], 0);
     EXPECT_GT(loose["history"]["largest_displacement"]["last"],
               refined["history"]["largest_displacement"]["last"]);
+    write_surface(ico_sphere(50, 4));
     const Json remade = report_of({"--levels", "0", "--nodes", "200"});
-    EXPECT_NEAR(remade["organ"]["levels"][0]["nodes"].get<double>(), 200, 50);
+    // A surface file does not become as coarse as asked (see the room's limits); that is told.
+    EXPECT_THAT(remade["notes"].dump(), HasSubstr("about 200 nodes were asked for"));
 }
 
 TEST_F(Press, ForceThatDrivesATool) {
@@ -191,7 +193,7 @@ TEST_F(Press, PatchesHoldsCavityAndAPlane) {
            "     depth: [[0, -1], [0.2, 2]]}\n");
     change("time:",
            "patches: [{direction: [1, 0, 0], radius: 20, force: 0.1, until: 0.3}]\n"
-           "hold: {balls: [{centre: [0, 50, 0], radius: 15}], points: [3]}\n"
+           "hold: {balls: [{centre: [0, 50, 0], radius: 25}], points: [3]}\n"
            "gravity: [0, 0, -9810]\n"
            "cavity: {pressure: 0.00001, bulk: 0.001}\n"
            "time:");
