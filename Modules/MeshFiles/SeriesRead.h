@@ -14,8 +14,8 @@ struct SeriesContent {
 /// Throws IoError, InputError when it is damaged or of another make.
 [[nodiscard]] SeriesContent read_series_content(const std::filesystem::path& file);
 
-/// Indices of a grid's elements, `corners` each: 3 of triangles, 4 of tetrahedra. Throws IoError,
-/// InputError when there are none such.
+/// Indices of a grid's elements, `corners` each: 3 of triangles, 4 of tetrahedra. Throws IoError
+/// when there are none, InputError when they have another number of corners.
 [[nodiscard]] std::vector<std::int32_t> read_series_elements(const std::filesystem::path& file,
                                                              const std::string& grid, int corners);
 
@@ -26,7 +26,8 @@ struct SeriesPlace {
     int components = 1;
 };
 
-/// All of them, in the order of points or elements. Throws IoError, InputError when there are none.
+/// All of them, in the order of points or elements. Throws IoError when there are none, InputError
+/// when they have another number of components.
 [[nodiscard]] std::vector<double> read_series_array(const std::filesystem::path& file,
                                                     const SeriesPlace& place);
 

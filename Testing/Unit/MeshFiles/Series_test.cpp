@@ -164,7 +164,7 @@ TEST_F(Series, IsReadBack) {
         EXPECT_EQ(read_series_array(file, {frame, "bone", kSeriesPoints, 3}),
                   numbers(frame, 1, kSeriesPoints));
     }
-    EXPECT_THROW((void)read_series_array(file, {3, "bodies", "J", 1}), InputError);
+    EXPECT_THROW((void)read_series_array(file, {3, "bodies", "J", 1}), IoError);
     EXPECT_THROW((void)read_series_array(file, {0, "bodies", "J", 3}), InputError);
     EXPECT_THROW((void)read_series_elements(file, "bodies", 3), InputError);
 }
