@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The goal: t0 = tan^2 (116 / 2 degrees), 1 / t1 = tan^2 (28 / 2 degrees), a0 = 3.4.
-constexpr double kObtuse = 2.56107, kAcute = 1 / 0.0621645, kAspect = 3.4 * 3.4;
+// The goal: t0 = tan^2 (116 / 2 degrees), 1 / t1 = tan^2 (28 / 2 degrees).
+constexpr double kObtuse = 2.56107, kAcute = 1 / 0.0621645;
 // At the goal a term is as large as q^8 of an aspect ratio of about 3.
 constexpr double kAtGoal = 3;
 constexpr double kRegular = 1.0 / 432.0;
@@ -98,7 +98,7 @@ MYOTET_INLINE void find_shape(const double* at, std::size_t stride, const double
 struct Whole {
     Lane edges8, areas8, edges, aspect, q8;
 };
-MYOTET_INLINE void find_whole(const Shape& s, Whole& w) {
+MYOTET_INLINE void find_whole(const Shape& s, double per_aspect, Whole& w) {
     w.edges8 = w.areas8 = w.edges = all(0);
     for (const Lane& e : s.edge2) {
         w.edges += e;
@@ -106,7 +106,7 @@ MYOTET_INLINE void find_whole(const Shape& s, Whole& w) {
     }
     for (const Lane& a : s.area2) w.areas8 += power8(a);
     const Lane volume2 = s.volume * s.volume;
-    w.aspect = w.edges8 * w.areas8 / power8(volume2 * (kAspect / kAtGoal));
+    w.aspect = w.edges8 * w.areas8 / power8(volume2 * (1 / (kAtGoal * per_aspect)));
     w.q8 = power8(kRegular * w.edges * w.edges * w.edges / volume2);
 }
 
@@ -126,14 +126,14 @@ MYOTET_INLINE void find_angle(const Shape& s, int i, int j, Angle& a) {
 
 MYOTET_INLINE Lane lesser(const Lane& a, const Lane& b) { return a < b ? a : b; }
 
-MYOTET_WIDE void sum_values(const double* rows, std::size_t stride, const double* x, double* sum,
-                            double* lowest) {
+MYOTET_WIDE void sum_values(const double* rows, std::size_t stride, const double* x,
+                            double per_aspect, double* sum, double* lowest) {
     Lane total = all(0), least = all(kInfinity);
     for (std::size_t i = 0; i < stride; i += kLanes) {
         Shape s;
         Whole w;
         find_shape(rows + i, stride, x, s);
-        find_whole(s, w);
+        find_whole(s, per_aspect, w);
         Lane value = w.aspect + w.q8;
         for (int f = 0; f < 4; ++f)
             for (int g = f + 1; g < 4; ++g) {
@@ -195,9 +195,9 @@ MYOTET_INLINE void add_angles(const Shape& s, const Lane& weight, Sums& out) {
         }
 }
 
-MYOTET_INLINE void add_whole(const Shape& s, const Lane& weight, Sums& out) {
+MYOTET_INLINE void add_whole(const Shape& s, double per_aspect, const Lane& weight, Sums& out) {
     Whole w;
-    find_whole(s, w);
+    find_whole(s, per_aspect, w);
     const Lane per_volume = 1 / s.volume;
     const Point log_volume = (all(0) - per_volume) * s.n[0];
     // b^8 = edges8 areas8 / ..., (ln b^8)' = edges8' / edges8 + areas8' / areas8 - 16 V' / V.
@@ -226,13 +226,13 @@ MYOTET_INLINE void add_whole(const Shape& s, const Lane& weight, Sums& out) {
 }
 
 MYOTET_WIDE void sum_expansions(const double* rows, std::size_t stride, const double* x,
-                                Sums& out) {
+                                double per_aspect, Sums& out) {
     for (std::size_t i = 0; i < stride; i += kLanes) {
         Shape s;
         find_shape(rows + i, stride, x, s);
         const Lane weight = load(rows + kWeight * stride + i);
         add_angles(s, weight, out);
-        add_whole(s, weight, out);
+        add_whole(s, per_aspect, weight, out);
         out.lowest = lesser(s.volume, out.lowest);
     }
 }
@@ -241,7 +241,8 @@ double lane_sum(const Lane& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 }  // namespace
 
-void AngleEnergy::reset(std::size_t count) {
+void AngleEnergy::reset(std::size_t count, double aspect_ratio) {
+    per_aspect_ = 1 / (aspect_ratio * aspect_ratio);
     stride_ = (count + kLanes - 1) / kLanes * kLanes;
     if (rows_.size() < kRows * stride_) rows_.resize(kRows * stride_);
     count_ = 0;
@@ -260,7 +261,7 @@ void AngleEnergy::add(const Vec3& p, const Vec3& q, const Vec3& r) {
 
 double AngleEnergy::value(const Vec3& x) const {
     double sum[kLanes], lowest[kLanes];
-    sum_values(rows_.data(), stride_, x.data(), sum, lowest);
+    sum_values(rows_.data(), stride_, x.data(), per_aspect_, sum, lowest);
     if (!(*std::min_element(lowest, lowest + kLanes) > 0)) return kInfinity;
     const double total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     return total < kInfinity ? total : kInfinity;  // not a number either
@@ -269,7 +270,7 @@ double AngleEnergy::value(const Vec3& x) const {
 Expansion AngleEnergy::expand(const Vec3& x) const {
     Sums s{};
     s.lowest = all(kInfinity);
-    sum_expansions(rows_.data(), stride_, x.data(), s);
+    sum_expansions(rows_.data(), stride_, x.data(), per_aspect_, s);
     Expansion e;
     e.value = lane_sum(s.value);
     const double lowest =

@@ -15,13 +15,13 @@ namespace myotet::meshing {
 /// with q as in StarEnergy, t = tan^2(theta / 2) of the dihedral angle at an edge,
 /// a = (|L|_16 |N|_16) / 6V, at least the longest edge over the shortest altitude
 /// (norms over six edges and four doubled face areas). t0, t1, a0 are the values of
-/// the goal: 116 degrees, 28 degrees, 3.4. Every term is infinite for a flat
-/// tetrahedron. The Hessian is that of Gauss and Newton, exact for q, and so
-/// positive definite. Positions as in StarEnergy.
+/// the goal: 116 degrees, 28 degrees, and an aspect ratio that is said. Every term is infinite for
+/// a flat tetrahedron. The Hessian is that of Gauss and Newton, exact for q, and so positive
+/// definite. Positions as in StarEnergy.
 class AngleEnergy {
 public:
-    /// Forgets the last star and makes room for `count` tetrahedra.
-    void reset(std::size_t count);
+    /// Forgets the last star and makes room for `count` tetrahedra; a0 is `aspect_ratio`.
+    void reset(std::size_t count, double aspect_ratio = 3.4);
     /// Adds the tetrahedron (x, p, q, r), oriented as StarEnergy::add asks.
     void add(const Vec3& p, const Vec3& q, const Vec3& r);
 
@@ -31,6 +31,7 @@ public:
 private:
     std::vector<double> rows_;  // a table: one row a coefficient, `stride_` entries each
     std::size_t stride_ = 0, count_ = 0;
+    double per_aspect_ = 0;  // 1 / a0^2
 };
 
 /// What the elements of a mesh shall keep to.

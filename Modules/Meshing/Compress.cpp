@@ -47,6 +47,9 @@ constexpr float kMostFar = 1.0F, kHopeless = 5.7F;
 constexpr double kAwake = 0.8, kPoor = 0.95, kLoosen = 0.5;
 // What uniform meshes shall keep to, and graded ones, whose distance is held as well.
 constexpr ShapeGoal kUniformGoal{116, 28, 3.4}, kGradedGoal{134, 22.5, 3.95};
+// And those of smooth shapes: uniform ones that have reached it within so many rounds.
+constexpr ShapeGoal kSmoothGoal{116, 28, 2.6};
+constexpr int kSmoothRounds = 2;
 
 // One stage: `sweeps` sweeps at exponent m (kAngles: AngleEnergy) and fit weight mu.
 constexpr int kAngles = 0;
@@ -109,9 +112,10 @@ public:
             if (shape_energy(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]]) > bound)
                 for (const std::int32_t n : t) dirty_[n] = 1;
     }
+    void aim_at(const ShapeGoal& goal) { aim_ = goal; }
     // Wakes what is bad and loosens the fit of what is poor; false when nothing is.
     bool loosen_poor(const TetMesh& mesh) {
-        const std::vector<float> bad = survey_shapes(mesh, kUniformGoal);
+        const std::vector<float> bad = survey_shapes(mesh, aim_);
         bool any = false;
         for (std::size_t v = 0; v < x_.size(); ++v) {
             if (!(bad[v] > kPoor)) continue;
@@ -155,6 +159,10 @@ public:
     void wake_all() { std::fill(dirty_.begin(), dirty_.end(), 1); }
 
 private:
+    static void make_room(StarEnergy& energy, std::size_t count) { energy.reset(count); }
+    void make_room(AngleEnergy& energy, std::size_t count) const {
+        energy.reset(count, aim_.max_aspect_ratio);
+    }
     // Farthest of a face's corners, edge midpoints and centre from the surface, mm.
     [[nodiscard]] double distance(const Triangle& f) const {
         const Vec3 &a = x_[f[0]], &b = x_[f[1]], &c = x_[f[2]];
@@ -211,7 +219,7 @@ private:
         const double h = stars_.scale[v], per_h = 1 / h;
         const Vec3 start = x_[v];
         const auto star = stars_.opposite(v);
-        energy.reset(star.size());
+        make_room(energy, star.size());
         for (const auto& f : star)
             energy.add((x_[f[0]] - start) * per_h, (x_[f[1]] - start) * per_h,
                        (x_[f[2]] - start) * per_h);
@@ -262,6 +270,7 @@ private:
     std::vector<char> dirty_;
     std::vector<double> weight_;  // of the fit at each node
     double offset_ = 0;
+    ShapeGoal aim_ = kUniformGoal;
     double surface_scale_ = 0;  // median scale of boundary nodes, mm
 };
 
@@ -376,7 +385,11 @@ double polish(TetMesh& mesh, const LevelSet& phi, const PolishOptions& options,
     for (int i = 0; i < kAngleRounds; ++i) {
         progress.report("compression", (i + 1) / (kAngleRounds + 1.0));
         goal.correct(mesh, compressor);
-        const bool poor = compressor.loosen_poor(mesh);
+        bool poor = compressor.loosen_poor(mesh);
+        if (i < kSmoothRounds && !poor) {
+            compressor.aim_at(kSmoothGoal);
+            poor = compressor.loosen_poor(mesh);
+        }
         compressor.run(kAngular, goal.offset(), progress);
         if (!poor && !goal.asked()) break;
     }

@@ -37,7 +37,7 @@ struct PolishOptions {
     /// The surface's distance is promised (14 % of the median surface edge), with angles
     /// within 22.5 and 134 degrees and aspect ratios below 3.95, until all holds or the
     /// rounds end. Without, it gives way until all angles lie within 28 and 116 degrees
-    /// and aspect ratios below 3.4.
+    /// and aspect ratios below 3.4, or 2.6 on smooth shapes.
     bool hold_distance = true;
     /// Only the whole mesh is relaxed; nothing is done for the worst elements.
     bool draft = false;
