@@ -14,6 +14,8 @@
 namespace myotet::app {
 namespace {
 
+constexpr const char* kSheet = "pictures/play.png";
+
 // A scene with all that it names.
 struct Prepared {
     play::PlayScene scene;
@@ -93,7 +95,7 @@ PlayReport run_play_job(const PlayJobOptions& options, ProgressSink& progress) {
     report.seconds["steps"] = report.run.seconds;
     report.seconds["measures and files"] = watch.lap() - drawing - report.run.seconds;
     if (options.pictures) {
-        const auto pictures = write_contact_sheet(options.output, report.run.frames);
+        const auto pictures = write_contact_sheet(options.output, report.run.frames, kSheet);
         report.run.files.insert(report.run.files.end(), pictures.begin(), pictures.end());
         report.seconds["pictures"] = watch.lap() + drawing;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <numeric>
 
 #include "Core/Errors.h"
@@ -25,6 +26,7 @@ using levelset::Region;
 // A cavity smaller than this part of what the organ encloses is a hole in the
 // segmentation, no lumen.
 constexpr double kLeastLumen = 0.05;
+constexpr double kSampleOfEdge = 0.1;  // of a surface that is made anew, its samples apart
 
 double area_of(const TriMesh& surface) { return quality::measure_surface(surface).area; }
 
@@ -97,6 +99,19 @@ Outside outside_of(const Region& region, double spacing, Organ& organ, ProgressS
     return out;
 }
 
+// How often nodes are counted and the edges made longer or shorter, and when they are enough.
+constexpr int kTries = 4;
+constexpr double kNearEnough = 0.15;  // of the nodes asked for
+
+std::string missed(int nodes, std::size_t came) {
+    return "about " + std::to_string(nodes) + " nodes were asked for, but " + std::to_string(came) +
+           " came of it";
+}
+
+bool far_from(int nodes, std::size_t came) {
+    return !(std::abs(static_cast<double>(came) / nodes - 1) < 2 * kNearEnough);
+}
+
 /// Even triangles: sqrt(3)/2 L^2 of area a node.
 double edge_for(double area, int nodes) { return std::sqrt(2 * area / (std::sqrt(3.0) * nodes)); }
 
@@ -104,8 +119,6 @@ void triangulate(const Outside& outside, const LevelSet& phi, const OrganOptions
                  Organ& organ, ProgressSink& progress) {
     constexpr double kEven = 0.5;          // of the edge length, how short edges may get
     constexpr double kNoCurvature = 1000;  // refinement comes by levels, not by shape
-    constexpr double kNearEnough = 0.15;   // of the nodes asked for
-    constexpr int kTries = 4;
     const int nodes = options.nodes > 0 ? options.nodes : kOrganNodes;
     organ.edge_length =
         options.edge_length > 0 ? options.edge_length : edge_for(area_of(outside.surface), nodes);
@@ -128,11 +141,9 @@ void triangulate(const Outside& outside, const LevelSet& phi, const OrganOptions
                          " cannot be in triangles of " + rounded(organ.edge_length) + " mm (" +
                          broken.front() + "); give a shorter --edge-length or more --nodes");
     organ.surface = made.mesh;
-    if (options.edge_length == 0 &&
-        !(std::abs(static_cast<double>(made.mesh.points.size()) / nodes - 1) < 2 * kNearEnough))
-        organ.notes.push_back("about " + std::to_string(nodes) + " nodes were asked for, but " +
-                              std::to_string(made.mesh.points.size()) +
-                              " came of it; edges could not be made longer");
+    if (options.edge_length == 0 && far_from(nodes, made.mesh.points.size()))
+        organ.notes.push_back(missed(nodes, made.mesh.points.size()) +
+                              "; edges could not be made longer");
 }
 
 void hold_near(const OrganOptions& options, const TissueSets& sets, Organ& organ) {
@@ -180,8 +191,11 @@ Organ organ_of_level_set(const OrganOptions& options, ProgressSink& progress) {
     organ.name = tissue.name;
     organ.label = tissue.label;
     LevelSetChoices choices = options.level_sets;
-    if (organ.scan.surface && !(choices.spacing > 0))
-        choices.spacing = level_set_spacing(choose_sizes({}, organ.scan), organ.scan);
+    if (organ.scan.surface && !(choices.spacing > 0)) {
+        // On samples much finer than the triangles these do not become as large as asked.
+        choices.spacing = std::max(kSampleOfEdge * options.edge_length,
+                                   level_set_spacing(choose_sizes({}, organ.scan), organ.scan));
+    }
     const TissueSets sets = make_level_sets(organ.scan, choices, progress);
     progress.check();
     std::vector<const Region*> regions;
@@ -215,6 +229,22 @@ void refuse_for_surface(const OrganOptions& options) {
                          "'balls' or 'rims'");
 }
 
+// A surface made anew with so many nodes: each try has samples for its own edge length.
+Organ organ_of_nodes(OrganOptions options, ProgressSink& progress) {
+    const int nodes = std::exchange(options.nodes, 0);
+    options.edge_length = edge_for(area_of(*read_scan(options.scan).surface), nodes);
+    for (int attempt = 1;; ++attempt) {
+        Organ organ = organ_of_level_set(options, progress);
+        const std::size_t came = organ.surface.points.size();
+        const double excess = static_cast<double>(came) / nodes;
+        if (std::abs(excess - 1) < kNearEnough || attempt == kTries) {
+            if (far_from(nodes, came)) organ.notes.push_back(missed(nodes, came));
+            return organ;
+        }
+        options.edge_length *= std::sqrt(excess);
+    }
+}
+
 Organ organ_of_surface(const OrganOptions& options) {
     std::vector<std::string> given;
     if (options.level_sets.smooth >= 0) given.emplace_back("--smooth");
@@ -242,7 +272,8 @@ Organ find_organ(const OrganOptions& options, ProgressSink& progress) {
     if (kind_of(options.scan.input) != InputKind::surface)
         return organ_of_level_set(options, progress);
     refuse_for_surface(options);
-    if (options.nodes > 0 || options.edge_length > 0) return organ_of_level_set(options, progress);
+    if (options.nodes > 0) return organ_of_nodes(options, progress);
+    if (options.edge_length > 0) return organ_of_level_set(options, progress);
     return organ_of_surface(options);
 }
 
