@@ -9,7 +9,6 @@
 namespace myotet::cage {
 namespace {
 
-constexpr std::int32_t kLeaf = 4;  // triangles in one, at most
 // Far above what rounding does to a plane's distance, far below what culling gains by.
 constexpr double kSlack = 1e-9;
 
@@ -75,29 +74,8 @@ Box box_of(const Corners3& t) {
     return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
 }
 
-double squared_distance(const Box& box, const Vec3& p) {
-    return (p - p.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
-}
-
-Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 ab = b - a;
-    const double length = ab.squaredNorm();
-    return length > 0 ? a + std::clamp(ab.dot(p - a) / length, 0.0, 1.0) * ab : a;
-}
-
-// Inside the triangle's prism the foot on its plane, else the nearest point of an edge.
-Vec3 nearest_on_triangle(const Vec3& p, const Corners3& t) {
-    const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]);
-    const double square = n.squaredNorm();
-    bool over = square > 0;
-    for (int i = 0; i < 3 && over; ++i) over = n.cross(t[(i + 1) % 3] - t[i]).dot(p - t[i]) >= 0;
-    if (over) return p - n.dot(p - t[0]) / square * n;
-    Vec3 best = nearest_on_segment(p, t[0], t[1]);
-    for (int i = 1; i < 3; ++i) {
-        const Vec3 here = nearest_on_segment(p, t[i], t[(i + 1) % 3]);
-        if ((here - p).squaredNorm() < (best - p).squaredNorm()) best = here;
-    }
-    return best;
+Vec3 nearest_on(const Corners3& t, const Vec3& p) {
+    return nearest_on_triangle(p, t[0], t[1], t[2]).point;
 }
 
 }  // namespace
@@ -106,62 +84,19 @@ SurfaceTree::SurfaceTree(const TriMesh& surface) {
     const std::size_t count = surface.triangles.size();
     if (count == 0) throw MeshError("the surface has no triangles, but a cage is to enclose it");
     std::vector<Corners3> all(count);
+    std::vector<Box> boxes(count);
     std::vector<Vec3> centres(count);
-    order_.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
         for (int i = 0; i < 3; ++i) all[t][i] = surface.points[surface.triangles[t][i]];
-        centres[t] = box_of(all[t]).centre();
-        order_[t] = static_cast<std::int32_t>(t);
+        boxes[t] = box_of(all[t]);
+        centres[t] = boxes[t].centre();
     }
-    (void)build(all, centres, 0, static_cast<std::int32_t>(count));
+    tree_ = BoxTree(boxes, centres);
     corners_.resize(count);
     slot_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        corners_[i] = all[order_[i]];
-        slot_[order_[i]] = static_cast<std::int32_t>(i);
-    }
-}
-
-std::int32_t SurfaceTree::build(std::span<const Corners3> all, std::span<const Vec3> centres,
-                                std::int32_t first, std::int32_t last) {
-    const auto here = static_cast<std::int32_t>(cells_.size());
-    Cell cell{.box = {}, .first = first, .last = last};
-    Box middle_box;
-    for (std::int32_t i = first; i < last; ++i) {
-        for (const Vec3& p : all[order_[i]]) cell.box.include(p);
-        middle_box.include(centres[order_[i]]);
-    }
-    cells_.push_back(cell);
-    if (last - first <= kLeaf) return here;
-    int axis = 0;
-    middle_box.extent().maxCoeff(&axis);
-    const std::int32_t middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](std::int32_t a, std::int32_t b) {
-                         const double at_a = centres[a][axis], at_b = centres[b][axis];
-                         return at_a < at_b || (at_a == at_b && a < b);
-                     });
-    (void)build(all, centres, first, middle);
-    const std::int32_t right = build(all, centres, middle, last);
-    cells_[here].right = right;
-    return here;
-}
-
-// Visits the triangles of all leaves that are not missed, until `visit` says true.
-template <class Misses, class Visit>
-void SurfaceTree::walk(const Misses& misses, const Visit& visit) const {
-    std::array<std::int32_t, 64> stack{0};
-    for (int top = 1; top > 0;) {
-        const std::int32_t c = stack[--top];
-        const Cell& cell = cells_[c];
-        if (misses(cell.box)) continue;
-        if (cell.right >= 0) {
-            stack[top++] = cell.right;
-            stack[top++] = c + 1;
-            continue;
-        }
-        for (std::int32_t i = cell.first; i < cell.last; ++i)
-            if (visit(i)) return;
+        corners_[i] = all[tree_.order()[i]];
+        slot_[tree_.order()[i]] = static_cast<std::int32_t>(i);
     }
 }
 
@@ -169,59 +104,47 @@ std::int32_t SurfaceTree::meets(const Corners3& triangle, std::int32_t hint) con
     if (hint >= 0 && triangles_meet(triangle, corners(hint))) return hint;
     const Convex<5> query = convex(triangle);
     std::int32_t found = -1;
-    walk([&](const Box& box) { return query.misses(box); },
-         [&](std::int32_t i) {
-             if (apart(query.box, box_of(corners_[i])) || !triangles_meet(triangle, corners_[i]))
-                 return false;
-             found = order_[i];
-             return true;
-         });
+    tree_.walk(
+        [&](const Box& box) { return query.misses(box); },
+        [&](std::int32_t i) {
+            if (apart(query.box, box_of(corners_[i])) || !triangles_meet(triangle, corners_[i]))
+                return false;
+            found = tree_.order()[i];
+            return true;
+        });
     return found;
 }
 
 bool SurfaceTree::meets(const Corners4& tet) const {
     const Convex<4> query = convex(tet);
     bool found = false;
-    walk([&](const Box& box) { return query.misses(box); },
-         [&](std::int32_t i) { return found = cage::meets(tet, corners_[i]); });
+    tree_.walk([&](const Box& box) { return query.misses(box); },
+               [&](std::int32_t i) { return found = cage::meets(tet, corners_[i]); });
     return found;
 }
 
 void SurfaceTree::boxes_touching(const Corners3& triangle, std::vector<std::int32_t>& found) const {
     found.clear();
     const Box reach = box_of(triangle);
-    walk([&](const Box& box) { return apart(reach, box); },
-         [&](std::int32_t i) {
-             if (!apart(reach, box_of(corners_[i]))) found.push_back(order_[i]);
-             return false;
-         });
+    tree_.walk([&](const Box& box) { return apart(reach, box); },
+               [&](std::int32_t i) {
+                   if (!apart(reach, box_of(corners_[i]))) found.push_back(tree_.order()[i]);
+                   return false;
+               });
 }
 
 std::optional<Nearest> SurfaceTree::nearest(const Vec3& p, double bound, std::int32_t hint) const {
     Nearest best;
     double squared = bound * bound;
     const auto look = [&](std::int32_t i) {
-        const Vec3 q = nearest_on_triangle(p, corners_[i]);
+        const Vec3 q = nearest_on(corners_[i], p);
         const double here = (q - p).squaredNorm();
         if (here > squared || (here == squared && best.triangle >= 0)) return;
         squared = here;
-        best = {order_[i], q, std::sqrt(here)};
+        best = {tree_.order()[i], q, std::sqrt(here)};
     };
     if (hint >= 0) look(slot_[hint]);
-    std::array<std::int32_t, 64> stack{0};
-    for (int top = 1; top > 0;) {
-        const std::int32_t c = stack[--top];
-        const Cell& cell = cells_[c];
-        if (squared_distance(cell.box, p) > squared) continue;
-        if (cell.right >= 0) {
-            const bool right_first = squared_distance(cells_[cell.right].box, p) <
-                                     squared_distance(cells_[c + 1].box, p);
-            stack[top++] = right_first ? c + 1 : cell.right;
-            stack[top++] = right_first ? cell.right : c + 1;
-            continue;
-        }
-        for (std::int32_t i = cell.first; i < cell.last; ++i) look(i);
-    }
+    tree_.near(p, squared, look);
     if (best.triangle < 0) return std::nullopt;
     return best;
 }
@@ -229,12 +152,12 @@ std::optional<Nearest> SurfaceTree::nearest(const Vec3& p, double bound, std::in
 bool SurfaceTree::within(const Vec3& p, double bound, std::int32_t hint) const {
     const double squared = bound * bound;
     const auto near = [&](std::int32_t i) {
-        return (nearest_on_triangle(p, corners_[i]) - p).squaredNorm() <= squared;
+        return (nearest_on(corners_[i], p) - p).squaredNorm() <= squared;
     };
     if (hint >= 0 && near(slot_[hint])) return true;
     bool found = false;
-    walk([&](const Box& box) { return squared_distance(box, p) > squared; },
-         [&](std::int32_t i) { return found = near(i); });
+    tree_.walk([&](const Box& box) { return squared_distance(box, p) > squared; },
+               [&](std::int32_t i) { return found = near(i); });
     return found;
 }
 
@@ -254,7 +177,7 @@ int SurfaceTree::winding(const Vec3& p) const {
                                        Side(-third, p)};
         int count = 0;
         bool doubtful = false;
-        walk(
+        tree_.walk(
             [&](const Box& box) {
                 if (apart(reach, box)) return true;
                 for (const Side& s : tube)

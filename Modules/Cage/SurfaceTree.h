@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Cage/Predicates.h"
+#include "Core/BoxTree.h"
 
 namespace myotet::cage {
 
@@ -48,23 +49,12 @@ public:
         return corners_[slot_[triangle]];
     }
     [[nodiscard]] std::size_t size() const { return corners_.size(); }
-    [[nodiscard]] const Box& box() const { return cells_.front().box; }
+    [[nodiscard]] const Box& box() const { return tree_.box(); }
 
 private:
-    struct Cell {
-        Box box;
-        std::int32_t first = 0, last = 0;  // of corners_, in a leaf
-        std::int32_t right = -1;           // the left half follows its parent; -1: a leaf
-    };
-    std::int32_t build(std::span<const Corners3> all, std::span<const Vec3> centres,
-                       std::int32_t first, std::int32_t last);
-    template <class Misses, class Visit>
-    void walk(const Misses& misses, const Visit& visit) const;
-
-    std::vector<std::int32_t> order_;  // triangle numbers, as they lie in leaves
-    std::vector<std::int32_t> slot_;   // where a triangle lies
-    std::vector<Corners3> corners_;    // in that order
-    std::vector<Cell> cells_;
+    BoxTree tree_;
+    std::vector<std::int32_t> slot_;  // where a triangle lies
+    std::vector<Corners3> corners_;   // as they lie in leaves
 };
 
 }  // namespace myotet::cage

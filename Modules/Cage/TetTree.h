@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "Core/BoxTree.h"
 #include "Core/TetMesh.h"
 
 namespace myotet::cage {
@@ -18,8 +19,7 @@ struct Holder {
     double distance = 0;  ///< from the point to the tetrahedron, mm; 0: it is inside
 };
 
-/// Boxes around tetrahedra, halved at the middle of their centres along the longest side:
-/// finds the tetrahedron of a point in about log |T|, however sizes differ.
+/// Finds the tetrahedron of a point in about log |T|, however sizes differ.
 class TetTree {
 public:
     /// Keeps a copy of what it needs. Throws MeshError naming the tetrahedron when there is
@@ -32,22 +32,15 @@ public:
     [[nodiscard]] Holder find(const Vec3& p) const;
 
 private:
-    struct Cell {
-        Box box;
-        std::int32_t first = 0, last = 0;  // of order_, in a leaf
-        std::int32_t right = -1;           // the left half follows its parent; -1: a leaf
-    };
     struct Edges {
         Mat3 inverse;  // of the edges from the first corner
         std::array<Vec3, 4> corner;
     };
-    std::int32_t build(std::span<const Box> boxes, std::int32_t first, std::int32_t last);
     [[nodiscard]] Weights weights(std::int32_t tet, const Vec3& p) const;
     [[nodiscard]] Holder nearest(const Vec3& p) const;
 
     std::vector<Edges> tets_;
-    std::vector<std::int32_t> order_;
-    std::vector<Cell> cells_;
+    BoxTree tree_;
 };
 
 }  // namespace myotet::cage

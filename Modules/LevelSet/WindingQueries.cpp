@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "Core/Nearest.h"
 #include "Core/Parallel.h"
 #include "LevelSet/WindingTree.h"
 
@@ -12,30 +13,8 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Nearest point of a triangle, by the feature whose Voronoi region holds the
-/// point (Ericson 2005, Real-Time Collision Detection, 5.1.5).
-Vec3 nearest_point(const Corners& t, const Vec3& p) {
-    const Vec3 ab = t[1] - t[0], ac = t[2] - t[0];
-    const Vec3 ap = p - t[0], bp = p - t[1], cp = p - t[2];
-    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-    if (d1 <= 0 && d2 <= 0) return t[0];
-    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-    if (d3 >= 0 && d4 <= d3) return t[1];
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return t[0] + d1 / (d1 - d3) * ab;
-    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-    if (d6 >= 0 && d5 <= d6) return t[2];
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return t[0] + d2 / (d2 - d6) * ac;
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 >= d3 && d5 >= d6)
-        return t[1] + (d4 - d3) / (d4 - d3 + d5 - d6) * (t[2] - t[1]);
-    const double sum = va + vb + vc;
-    return sum > 0 ? Vec3(t[0] + vb / sum * ab + vc / sum * ac) : t[0];
-}
-
-double squared_distance(const Box& box, const Vec3& p) {
-    return (box.min - p).cwiseMax(p - box.max).cwiseMax(0).squaredNorm();
+Vec3 nearest_on(const Corners& t, const Vec3& p) {
+    return nearest_on_triangle(p, t[0], t[1], t[2]).point;
 }
 
 bool overlap(const Box& a, const Box& b) {
@@ -109,8 +88,8 @@ double distance_to_triangles(const WindingTree& tree, const Vec3& point, double 
         if (node.child < 0) {
             for (std::int32_t n = node.first; n < node.first + node.count; ++n)
                 if (mask.empty() || mask[tree.order[n]] != 0)
-                    best = std::min(best,
-                                    (nearest_point(tree.corners[n], point) - point).squaredNorm());
+                    best =
+                        std::min(best, (nearest_on(tree.corners[n], point) - point).squaredNorm());
             continue;
         }
         std::pair<double, std::int32_t> near{squared_distance(tree.nodes[node.child].box, point),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Core/Nearest.h"
 #include "Core/Parallel.h"
 
 namespace myotet::contraction {
@@ -139,7 +140,8 @@ struct Best {
             for (int f = 0; f < 4; ++f) {
                 if (lambda[f] >= 0) continue;  // p is not beyond this face
                 const Triangle n = face_of({0, 1, 2, 3}, f);
-                const Vec3 on = nearest_on_triangle(p, corner[n[0]], corner[n[1]], corner[n[2]]);
+                const Vec3 on =
+                    nearest_on_triangle(p, corner[n[0]], corner[n[1]], corner[n[2]]).point;
                 away = std::min(away, (p - on).norm());
             }
         }
@@ -162,28 +164,6 @@ std::array<double, 4> barycentric(const std::array<Vec3, 4>& corner, const Vec3&
     const double l1 = q.cross(b).dot(c) / six, l2 = a.cross(q).dot(c) / six,
                  l3 = a.cross(b).dot(q) / six;
     return {1 - l1 - l2 - l3, l1, l2, l3};
-}
-
-// By the region of the plane that p lies over: a corner's, an edge's or the triangle's own
-// [Ericson 2005, sec. 5.1.5].
-Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 ab = b - a, ac = c - a;
-    const double ab_a = ab.dot(p - a), ac_a = ac.dot(p - a);
-    if (ab_a <= 0 && ac_a <= 0) return a;
-    const double ab_b = ab.dot(p - b), ac_b = ac.dot(p - b);
-    if (ab_b >= 0 && ac_b <= ab_b) return b;
-    const double ab_c = ab.dot(p - c), ac_c = ac.dot(p - c);
-    if (ac_c >= 0 && ab_c <= ac_c) return c;
-    // Areas of the triangles that p makes with the edges, all times the same.
-    const double of_c = ab_a * ac_b - ab_b * ac_a;
-    if (of_c <= 0 && ab_a >= 0 && ab_b <= 0) return a + ab_a / (ab_a - ab_b) * ab;
-    const double of_b = ab_c * ac_a - ab_a * ac_c;
-    if (of_b <= 0 && ac_a >= 0 && ac_c <= 0) return a + ac_a / (ac_a - ac_c) * ac;
-    const double of_a = ab_b * ac_c - ab_c * ac_b;
-    const double to_c = ac_b - ab_b, to_b = ab_c - ac_c;
-    if (of_a <= 0 && to_c >= 0 && to_b >= 0) return b + to_c / (to_c + to_b) * (c - b);
-    const double sum = of_a + of_b + of_c;
-    return a + of_b / sum * ab + of_c / sum * ac;
 }
 
 std::vector<std::int32_t> nearest_tets(const std::vector<Vec3>& x,

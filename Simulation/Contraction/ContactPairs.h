@@ -22,7 +22,4 @@ namespace myotet::contraction {
 /// Barycentric coordinates of a point in a tetrahedron that is not flat.
 [[nodiscard]] std::array<double, 4> barycentric(const std::array<Vec3, 4>& corner, const Vec3& p);
 
-/// The point of a triangle that is nearest to p.
-[[nodiscard]] Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 }  // namespace myotet::contraction

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Core/Nearest.h"
 #include "Membrane/Contact.h"
-#include "Membrane/Nearest.h"
 #include "Membrane/Require.h"
 
 namespace myotet::membrane {
@@ -61,7 +61,7 @@ void look_ahead(const Criteria& criteria, const Body& body, const Motion& motion
         const double size = std::sqrt(std::max(
             {(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
         if (sphere && (middle - at).squaredNorm() > (within + size) * (within + size)) continue;
-        const Vec3 to = sphere ? nearest_of(a, b, c, at).point : at;
+        const Vec3 to = sphere ? nearest_on_triangle(at, a, b, c).point : at;
         const auto nearer = [&](std::int32_t v, std::int32_t w) {
             return sphere ? (motion.x[v] - to).squaredNorm() < (motion.x[w] - to).squaredNorm()
                           : tool.normal.dot(motion.x[v] - motion.x[w]) < 0;

