@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "ActivateJob.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class... Values>
-std::string line(const char* form, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, form, values...);
-    return text;
-}
 
 }  // namespace
 
@@ -64,22 +57,23 @@ std::string to_json(const ActivateReport& report) {
 
 std::string to_table(const ActivateReport& report) {
     std::string text =
-        line("%zu times from %.4g to %.4g s\n", report.times, report.begin, report.end);
+        formatted("%zu times from %.4g to %.4g s\n", report.times, report.begin, report.end);
     text += "  muscle                    most activation   most force N   times at a bound\n";
     for (const ActivateMuscle& m : report.muscles)
-        text += line("  %-25s %15.4f %14.2f %18d\n", m.name.c_str(), m.highest_activation,
-                     m.highest_force, m.at_bounds);
+        text += formatted("  %-25s %15.4f %14.2f %18d\n", m.name.c_str(), m.highest_activation,
+                          m.highest_force, m.at_bounds);
     text += "  coordinate                largest torque    largest reserve   missing\n";
     for (const ActivateCoordinate& c : report.coordinates)
-        text +=
-            line("  %-25s %9.4g %-6s %9.4g %-6s %9.4g%s\n", c.name.c_str(), c.largest_torque,
-                 c.rotational ? "N mm" : "N", c.held ? 0.0 : c.largest_reserve,
-                 c.rotational ? "N mm" : "N", c.missing, c.held ? "  left to what holds it" : "");
+        text += formatted("  %-25s %9.4g %-6s %9.4g %-6s %9.4g%s\n", c.name.c_str(),
+                          c.largest_torque, c.rotational ? "N mm" : "N",
+                          c.held ? 0.0 : c.largest_reserve, c.rotational ? "N mm" : "N", c.missing,
+                          c.held ? "  left to what holds it" : "");
     if (report.curves)
-        return text + line("  curves leave %.3g N mm (rms); excitation leaves 0 to 1 by %.2g\n",
-                           report.curves->torque_rms, report.curves->excitation_out);
-    text += line("  KKT residual %.1e, torque residual %.1e, %d iterations\n",
-                 report.largest_residual, report.largest_torque_residual, report.iterations);
+        return text +
+               formatted("  curves leave %.3g N mm (rms); excitation leaves 0 to 1 by %.2g\n",
+                         report.curves->torque_rms, report.curves->excitation_out);
+    text += formatted("  KKT residual %.1e, torque residual %.1e, %d iterations\n",
+                      report.largest_residual, report.largest_torque_residual, report.iterations);
     return text;
 }
 

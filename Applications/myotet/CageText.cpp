@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "CageJob.h"
+#include "Core/Text.h"
 #include "ReportText.h"
 
 namespace myotet::app {
@@ -87,14 +87,11 @@ std::string to_table(const CageReport& report) {
         "enclosed  tries\n";
     for (const CageTissue& t : report.tissues) {
         const cage::Measures& m = t.cage.measures;
-        char text[240];
-        std::snprintf(text, sizeof text,
-                      "%6d  %-24.24s %10lld %5.1f %5.1f %7.2f %7.3g %7.3g %7.3f  %-8s %6zu\n",
-                      t.tissue.label, t.tissue.name.c_str(), static_cast<long long>(m.tets),
-                      m.min_dihedral_deg, m.max_dihedral_deg, m.max_aspect_ratio, m.distance_mean,
-                      m.distance_max, m.volume_ratio, t.cage.enclosure.enclosed() ? "yes" : "no",
-                      t.cage.tries.size());
-        table += text;
+        table += formatted("%6d  %-24.24s %10lld %5.1f %5.1f %7.2f %7.3g %7.3g %7.3f  %-8s %6zu\n",
+                           t.tissue.label, t.tissue.name.c_str(), static_cast<long long>(m.tets),
+                           m.min_dihedral_deg, m.max_dihedral_deg, m.max_aspect_ratio,
+                           m.distance_mean, m.distance_max, m.volume_ratio,
+                           t.cage.enclosure.enclosed() ? "yes" : "no", t.cage.tries.size());
         for (const std::string& sentence : t.notes) table += "        " + sentence + "\n";
         for (const std::string& sentence : t.broken_promises)
             table += "        broken promise: " + sentence + "\n";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "ContractJob.h"
+#include "HistoryText.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
@@ -24,33 +24,12 @@ Json body_json(const ContractBody& body) {
     return json;
 }
 
-// Of a column of the history: where it begins and ends, and how far it goes.
-Json column_json(const contraction::History& history, std::size_t c) {
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (const auto& row : history.rows) {
-        least = std::min(least, row[c]);
-        most = std::max(most, row[c]);
-    }
-    return {{"unit", history.columns[c].unit},
-            {"first", history.rows.front()[c]},
-            {"last", history.rows.back()[c]},
-            {"least", least},
-            {"most", most}};
-}
-
 Json options_json(const ContractJobOptions& options) {
     constexpr std::array series{"auto", "pvd", "xdmf"};
     return {{"resume", options.resume},
             {"checkpoint_every", options.checkpoint_every},
             {"series", series[static_cast<std::size_t>(options.series)]},
             {"pictures", options.pictures}};
-}
-
-template <class... Values>
-std::string line(const char* form, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, form, values...);
-    return text;
 }
 
 }  // namespace
@@ -81,10 +60,7 @@ std::string to_json(const ContractReport& report) {
                  {"largest_residual", run.residual}};
     json["bodies"] = Json::array();
     for (const ContractBody& body : report.bodies) json["bodies"].push_back(body_json(body));
-    json["history"] = Json::object();
-    if (!run.history.rows.empty())
-        for (std::size_t c = 0; c < run.history.columns.size(); ++c)
-            json["history"][run.history.columns[c].name] = column_json(run.history, c);
+    json["history"] = history_json(run.history);
     json["seconds"] = report.seconds;
     json["processor_seconds"] = report.processor_seconds;
     json["peak_memory_bytes"] = report.peak_memory;
@@ -99,23 +75,12 @@ std::string to_table(const ContractReport& report) {
     if (!report.title.empty()) text += report.title + "\n";
     text += "  body                   nodes      tets   PCSA mm2   sigma_max x PCSA N\n";
     for (const ContractBody& body : report.bodies)
-        text += line("  %-20s %7zu  %8zu   %8.1f   %10.1f\n", body.name.c_str(), body.nodes,
-                     body.tets, body.architecture.pcsa, body.architecture.force);
-    const contraction::History& history = report.run.history;
-    if (history.rows.empty()) return text;
-    text += "  quantity                                first       last      least       most\n";
-    for (std::size_t c = 1; c < history.columns.size(); ++c) {
-        const std::string& name = history.columns[c].name;
-        const bool part = name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z");
-        if (part) continue;
-        const Json column = column_json(history, c);
-        text += line("  %-30s %-5s %9.4g  %9.4g  %9.4g  %9.4g\n", name.c_str(),
-                     history.columns[c].unit.c_str(), column["first"].get<double>(),
-                     column["last"].get<double>(), column["least"].get<double>(),
-                     column["most"].get<double>());
-    }
-    text += line("  %d steps, %d failed, %d iterations of Newton's method\n", report.run.steps,
-                 report.run.failed_steps, report.run.iterations);
+        text += formatted("  %-20s %7zu  %8zu   %8.1f   %10.1f\n", body.name.c_str(), body.nodes,
+                          body.tets, body.architecture.pcsa, body.architecture.force);
+    if (report.run.history.rows.empty()) return text;
+    text += history_table(report.run.history);
+    text += formatted("  %d steps, %d failed, %d iterations of Newton's method\n", report.run.steps,
+                      report.run.failed_steps, report.run.iterations);
     return text;
 }
 

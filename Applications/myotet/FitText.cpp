@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "Core/Text.h"
 #include "FitJob.h"
 
 namespace myotet::app {
@@ -45,17 +45,14 @@ std::string to_json(const FitReport& report) {
 }
 
 std::string to_table(const FitReport& report) {
-    char line[256];
     std::string text = "activation of " + report.body + "\n";
     text += "  quantity                              most     misfit (rms)\n";
     for (const contraction::FittedQuantity& quantity : report.fitted.quantities) {
-        std::snprintf(line, sizeof line, "  %-32s %9.4g %11.4g (%.2g %%)\n", quantity.name.c_str(),
-                      quantity.most, quantity.misfit, 100 * quantity.misfit / quantity.most);
-        text += line;
+        text += formatted("  %-32s %9.4g %11.4g (%.2g %%)\n", quantity.name.c_str(), quantity.most,
+                          quantity.misfit, 100 * quantity.misfit / quantity.most);
     }
-    std::snprintf(line, sizeof line, "  %d evaluations, %d of them failed\n",
-                  report.fitted.fit.evaluations, report.fitted.fit.failures);
-    return text + line;
+    return text + formatted("  %d evaluations, %d of them failed\n", report.fitted.fit.evaluations,
+                            report.fitted.fit.failures);
 }
 
 }  // namespace myotet::app

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The inspection as a page for people and as JSON for programs.
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "InspectReport.h"
@@ -33,11 +32,7 @@ std::string padded(const std::string& name, std::size_t width) {
 }
 
 /// Three digits, and never an exponent for what is large.
-std::string amount(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, number >= 100 ? "%.0f" : "%.3g", number);
-    return text;
-}
+std::string amount(double number) { return formatted(number >= 100 ? "%.0f" : "%.3g", number); }
 
 std::string title_of(const InspectedLabel& l, bool layers) {
     return (layers ? std::to_string(l.layer + 1) + ":" : "") + std::to_string(l.found.value);
@@ -54,18 +49,17 @@ std::string heading(const InspectReport& report) {
     const GridReport& g = report.grid;
     const Vec3 extent = g.spacing.cwiseProduct(Vec3(g.size[0], g.size[1], g.size[2]));
     const Vec3 origin = g.index_to_lps.translation();
-    char text[640];
-    std::snprintf(text, sizeof text,
-                  "  grid      %d x %d x %d voxels of %.4g x %.4g x %.4g mm, in all %.4g x %.4g x "
-                  "%.4g mm\n"
-                  "  axes      %s: i grows to %s, j to %s, k to %s; %s, %s\n"
-                  "  frame     LPS, mm; the first voxel's middle lies at (%.2f, %.2f, %.2f)\n",
-                  g.size[0], g.size[1], g.size[2], g.spacing[0], g.spacing[1], g.spacing[2],
-                  extent[0], extent[1], extent[2], g.axes.c_str(), g.sides[1].c_str(),
-                  g.sides[3].c_str(), g.sides[5].c_str(),
-                  g.oblique_deg > 0.01 ? ("oblique by " + readable(g.oblique_deg) + " deg").c_str()
-                                       : "along the patient's axes",
-                  g.left_handed ? "left-handed" : "right-handed", origin[0], origin[1], origin[2]);
+    const std::string text = formatted(
+        "  grid      %d x %d x %d voxels of %.4g x %.4g x %.4g mm, in all %.4g x %.4g x "
+        "%.4g mm\n"
+        "  axes      %s: i grows to %s, j to %s, k to %s; %s, %s\n"
+        "  frame     LPS, mm; the first voxel's middle lies at (%.2f, %.2f, %.2f)\n",
+        g.size[0], g.size[1], g.size[2], g.spacing[0], g.spacing[1], g.spacing[2], extent[0],
+        extent[1], extent[2], g.axes.c_str(), g.sides[1].c_str(), g.sides[3].c_str(),
+        g.sides[5].c_str(),
+        g.oblique_deg > 0.01 ? ("oblique by " + readable(g.oblique_deg) + " deg").c_str()
+                             : "along the patient's axes",
+        g.left_handed ? "left-handed" : "right-handed", origin[0], origin[1], origin[2]);
     return report.input + "\n" + text + "  labels    " +
            counted(static_cast<std::int64_t>(report.labels.size()), "label") + " in " +
            counted(static_cast<std::int64_t>(report.pockets.size()), "layer") + "; names from " +
@@ -80,13 +74,12 @@ std::string table(const InspectReport& report) {
         "  label  name                              voxels  volume mm^3  pieces  voids  median   "
         "least  touches  cut\n";
     for (const InspectedLabel& l : report.labels) {
-        char text[160];
-        std::snprintf(text, sizeof text, "%10lld %12.6g %7zu %6lld %7.3g %7.3g %8lld  %s\n",
-                      static_cast<long long>(l.found.voxels), l.found.volume, l.found.pieces.size(),
-                      static_cast<long long>(l.found.cavities.count), l.found.median_radius,
-                      l.found.smallest_radius,
-                      static_cast<long long>(contacts_with_labels(l.found)),
-                      cut_letters(l, report.grid).c_str());
+        const std::string text = formatted(
+            "%10lld %12.6g %7zu %6lld %7.3g %7.3g %8lld  %s\n",
+            static_cast<long long>(l.found.voxels), l.found.volume, l.found.pieces.size(),
+            static_cast<long long>(l.found.cavities.count), l.found.median_radius,
+            l.found.smallest_radius, static_cast<long long>(contacts_with_labels(l.found)),
+            cut_letters(l, report.grid).c_str());
         const std::string title = title_of(l, layers);
         out += std::string(7 - std::min<std::size_t>(7, title.size()), ' ') + title + "  " +
                padded(l.name, kNameWidth) + "  " + text;

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
+#include "MeshFiles/Series.h"
 #include "Report/Draw.h"
 
 namespace myotet::app {
@@ -21,9 +22,7 @@ constexpr int kSheetColumns = 3;
 constexpr int kWidth = 480, kHeight = 600;  // of one view, pixels
 
 std::string time_title(const char* from, std::optional<double> time) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%s, t = %.3f s", from, time.value_or(0));
-    return text;
+    return formatted("%s, t = %.3f s", from, time.value_or(0));
 }
 
 const std::vector<double>& values_of(const contraction::Moment& frame, const char* name) {
@@ -53,9 +52,7 @@ report::Shape bodies_of(const contraction::Moment& frame) {
 }
 
 fs::path picture_name(std::size_t number) {
-    char name[48];
-    std::snprintf(name, sizeof name, "frame_%04zu.png", number);
-    return fs::path("pictures") / name;
+    return fs::path("pictures") / ("frame_" + meshfiles::frame_digits(number) + ".png");
 }
 
 // Up to `most` of `count` numbers from 0, the first, the last and evenly between.

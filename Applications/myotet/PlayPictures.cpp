@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "Core/Text.h"
 #include "Report/Draw.h"
 
 namespace myotet::app {
@@ -115,11 +115,11 @@ report::Picture play_picture(const play::PlayScene& scene, const play::PlayFrame
         for (Vec3& p : shape.surface.points) p = pose(p);
         shapes.push_back(std::move(shape));
     }
-    char title[64];
-    std::snprintf(title, sizeof title, "t = %.3f s", frame.time);
-    return report::draw(
-        shapes,
-        {.direction = direction, .width = kWidth, .height = kHeight, .title = title, .fit = fit});
+    return report::draw(shapes, {.direction = direction,
+                                 .width = kWidth,
+                                 .height = kHeight,
+                                 .title = formatted("t = %.3f s", frame.time),
+                                 .fit = fit});
 }
 
 }  // namespace myotet::app

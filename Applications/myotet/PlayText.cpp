@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "PlayJob.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
@@ -35,13 +35,6 @@ Json energies_json(const play::Energies& e) {
 
 // Of what took some time, how much there was in a second of it.
 double rate(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
-
-template <class... Values>
-std::string line(const char* form, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, form, values...);
-    return text;
-}
 
 }  // namespace
 
@@ -94,25 +87,28 @@ std::string to_table(const PlayReport& report) {
     if (!report.title.empty()) text += report.title + "\n";
     text += "  body                   nodes      tets   embedded      mass kg\n";
     for (const PlayPart& part : report.parts)
-        text += line("  %-20s %7zu  %8zu  %9zu   %10.4g\n", part.name.c_str(), part.nodes,
-                     part.tets, part.embedded, kKilogram * part.mass);
-    text += line("  contact: gap %.3g mm, %.3g MPa/mm, friction %.3g\n", report.contact.gap,
-                 report.contact.stiffness, report.contact.friction);
+        text += formatted("  %-20s %7zu  %8zu  %9zu   %10.4g\n", part.name.c_str(), part.nodes,
+                          part.tets, part.embedded, kKilogram * part.mass);
+    text += formatted("  contact: gap %.3g mm, %.3g MPa/mm, friction %.3g\n", report.contact.gap,
+                      report.contact.stiffness, report.contact.friction);
     const play::PlaySummary& run = report.run;
     if (run.steps == 0) return text;
+    text += formatted(
+        "  %d steps of %.4g s, %.0f a second, %.2f times as fast as their own clock\n", run.steps,
+        report.step, rate(run.steps, run.seconds), rate(run.reached, run.seconds));
     text +=
-        line("  %d steps of %.4g s, %.0f a second, %.2f times as fast as their own clock\n",
-             run.steps, report.step, rate(run.steps, run.seconds), rate(run.reached, run.seconds));
-    text += line("  %.0f steps a second of the processor; worst frame %.1f ms, %.1f of them its\n",
-                 rate(run.steps, run.processor_seconds), run.worst_frame / kMilli,
-                 run.worst_processor / kMilli);
-    text += line("  %.2f iterations a step, %.0f of conjugate gradients; %d steps ended early\n",
-                 rate(run.iterations, run.steps), rate(run.linear_iterations, run.steps),
-                 run.unsettled_steps);
-    text += line("  energy %.4g mJ at first, %.4g mJ at last; greatest gain in a step %.3g mJ\n",
-                 run.first.total(), run.last.total(), run.greatest_gain);
-    text += line("  deepest penetration %.3g mm; inverted elements %zu, smallest det F %.3f\n",
-                 run.deepest, run.inverted, run.smallest_volume_ratio);
+        formatted("  %.0f steps a second of the processor; worst frame %.1f ms, %.1f of them its\n",
+                  rate(run.steps, run.processor_seconds), run.worst_frame / kMilli,
+                  run.worst_processor / kMilli);
+    text +=
+        formatted("  %.2f iterations a step, %.0f of conjugate gradients; %d steps ended early\n",
+                  rate(run.iterations, run.steps), rate(run.linear_iterations, run.steps),
+                  run.unsettled_steps);
+    text +=
+        formatted("  energy %.4g mJ at first, %.4g mJ at last; greatest gain in a step %.3g mJ\n",
+                  run.first.total(), run.last.total(), run.greatest_gain);
+    text += formatted("  deepest penetration %.3g mm; inverted elements %zu, smallest det F %.3f\n",
+                      run.deepest, run.inverted, run.smallest_volume_ratio);
     return text;
 }
 

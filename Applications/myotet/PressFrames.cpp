@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "Core/Text.h"
 #include "Report/Draw.h"
 
 namespace myotet::app {
@@ -206,15 +206,14 @@ PressView view_of(const membrane::Loads& loads) {
 }
 
 report::Picture frame_picture(const PressFrame& frame, const PressView& view) {
-    char title[64];
     const double time = frame.arrays.time.value_or(0);
     const auto organ = with_edges(frame, view);
     std::vector<report::Shape> shapes{organ[0], organ[1]};
     for (const TriMesh& tool : frame.tools) shapes.push_back({.surface = tool, .colour = kSteel});
-    std::snprintf(title, sizeof title, "from the side, t = %.3f s", time);
-    const report::Picture beside = draw_from(shapes, view, view.beside, title);
-    std::snprintf(title, sizeof title, "as pressed, t = %.3f s", time);
-    const report::Picture both[] = {beside, draw_from(organ, view, view.behind, title)};
+    const report::Picture beside =
+        draw_from(shapes, view, view.beside, formatted("from the side, t = %.3f s", time));
+    const report::Picture both[] = {
+        beside, draw_from(organ, view, view.behind, formatted("as pressed, t = %.3f s", time))};
     return report::tile(both, 2);
 }
 

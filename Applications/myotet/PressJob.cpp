@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "Contraction/Run.h"
 #include "Core/AtomicFile.h"
@@ -12,6 +11,7 @@
 #include "Core/Sha256.h"
 #include "Core/Stopwatch.h"
 #include "Machine.h"
+#include "MeshFiles/Series.h"
 #include "Outputs.h"
 #include "Pictures.h"
 #include "PressFrames.h"
@@ -167,9 +167,7 @@ private:
     std::vector<PressFrame> frames_;
 
     static std::string numbered(const std::string& stem, std::size_t number, const char* end) {
-        char text[16];
-        std::snprintf(text, sizeof text, "_%04zu", number);
-        return stem + text + end;
+        return stem + "_" + meshfiles::frame_digits(number) + end;
     }
     static std::string frame_name(std::size_t number) {
         return numbered("frames/frame", number, ".vtu");

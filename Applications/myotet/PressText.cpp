@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "HistoryText.h"
 #include "PressJob.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json column_json(const contraction::History& history, std::size_t c) {
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (const auto& row : history.rows) {
-        least = std::min(least, row[c]);
-        most = std::max(most, row[c]);
-    }
-    return {{"unit", history.columns[c].unit},
-            {"first", history.rows.front()[c]},
-            {"last", history.rows.back()[c]},
-            {"least", least},
-            {"most", most}};
-}
 
 Json organ_json(const PressReport& report) {
     Json levels = Json::array();
@@ -57,13 +44,6 @@ Json wall_json(const PressReport& report) {
             {"contact_stiffness_MPa_per_mm", wall.contact_stiffness}};
 }
 
-template <class... Values>
-std::string line(const char* form, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, form, values...);
-    return text;
-}
-
 }  // namespace
 
 std::string to_json(const PressReport& report) {
@@ -91,9 +71,7 @@ std::string to_json(const PressReport& report) {
         {"force_evaluations", report.evaluations},
         {"level_switches", report.switches},
         {"switched_energy_N_mm", report.switched_energy}};
-    json["history"] = Json::object();
-    for (std::size_t c = 0; c < report.history.columns.size(); ++c)
-        json["history"][report.history.columns[c].name] = column_json(report.history, c);
+    json["history"] = history_json(report.history);
     json["seconds"] = report.seconds;
     json["processor_seconds"] = report.processor_seconds;
     json["peak_memory_bytes"] = report.peak_memory;
@@ -106,26 +84,17 @@ std::string to_json(const PressReport& report) {
 std::string to_table(const PressReport& report) {
     std::string text;
     if (!report.title.empty()) text += report.title + "\n";
-    text += line("  %s: %zu nodes, %zu refined all over; wall %.3g mm%s, %.3g MPa\n",
-                 report.name.c_str(), report.nodes_of_level.front(), report.nodes_of_level.back(),
-                 report.wall.thickness, report.thickness_measured ? " (measured)" : "",
-                 report.wall.young);
+    text += formatted("  %s: %zu nodes, %zu refined all over; wall %.3g mm%s, %.3g MPa\n",
+                      report.name.c_str(), report.nodes_of_level.front(),
+                      report.nodes_of_level.back(), report.wall.thickness,
+                      report.thickness_measured ? " (measured)" : "", report.wall.young);
     if (report.lumen)
-        text += line("  lumen of %.4g mm^3 in a wall of %.4g mm^3\n", report.lumen->volume,
-                     report.lumen->wall_volume);
-    text += "  quantity                                first       last      least       most\n";
-    for (std::size_t c = 1; c < report.history.columns.size(); ++c) {
-        const std::string& name = report.history.columns[c].name;
-        if (name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z")) continue;
-        const Json column = column_json(report.history, c);
-        text += line("  %-30s %-5s %9.4g  %9.4g  %9.4g  %9.4g\n", name.c_str(),
-                     report.history.columns[c].unit.c_str(), column["first"].get<double>(),
-                     column["last"].get<double>(), column["least"].get<double>(),
-                     column["most"].get<double>());
-    }
-    text += line("  %lld steps, %lld changes of level, %.2f s for %.4g s\n",
-                 static_cast<long long>(report.steps), static_cast<long long>(report.switches),
-                 report.seconds.at("press"), report.reached);
+        text += formatted("  lumen of %.4g mm^3 in a wall of %.4g mm^3\n", report.lumen->volume,
+                          report.lumen->wall_volume);
+    text += history_table(report.history);
+    text += formatted("  %lld steps, %lld changes of level, %.2f s for %.4g s\n",
+                      static_cast<long long>(report.steps), static_cast<long long>(report.switches),
+                      report.seconds.at("press"), report.reached);
     return text;
 }
 

@@ -2,8 +2,9 @@
 #include "QualityReport.h"
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "Core/Text.h"
 
 namespace myotet::app {
 namespace {
@@ -90,25 +91,22 @@ std::string tissue_rows(const std::vector<TissueReport>& tissues) {
         " label  name                                  tets     min     max     max    mean      "
         "median         mm^3  pieces\n";
     for (const TissueReport& t : tissues) {
-        char text[200];
-        std::snprintf(text, sizeof text,
-                      "%6d  %-32.32s %9zu %7.2f %7.2f %7.3f %7.3f %11.4g %12.6g %7d\n", t.label,
+        table +=
+            formatted("%6d  %-32.32s %9zu %7.2f %7.2f %7.3f %7.3f %11.4g %12.6g %7d\n", t.label,
                       t.name.c_str(), t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
                       t.shapes.max_aspect_ratio, t.shapes.mean_aspect_ratio, t.surface_edges.median,
                       t.volume_mesh, t.components_out);
-        table += text + promises_text(t.broken_promises);
+        table += promises_text(t.broken_promises);
     }
     return table;
 }
 
 std::string faces_row(const FacesReport& f) {
-    char text[200];
     const quality::SurfaceShape& s = f.shape;
-    std::snprintf(text, sizeof text, "%-32.32s %9zu %7.2f %7.2f %11.4g %12.6g %6lld %6lld %7d\n",
-                  f.name.c_str(), f.triangles, s.min_angle_deg, s.max_angle_deg, s.edges.median,
-                  s.area, static_cast<long long>(s.euler_characteristic),
-                  static_cast<long long>(s.boundary_loops), s.components);
-    return text;
+    return formatted("%-32.32s %9zu %7.2f %7.2f %11.4g %12.6g %6lld %6lld %7d\n", f.name.c_str(),
+                     f.triangles, s.min_angle_deg, s.max_angle_deg, s.edges.median, s.area,
+                     static_cast<long long>(s.euler_characteristic),
+                     static_cast<long long>(s.boundary_loops), s.components);
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 #include "ReportText.h"
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "Core/Text.h"
 
 namespace myotet::app {
 namespace {
@@ -131,13 +132,11 @@ std::string key_text(int layer, std::int32_t label) {
 }
 
 std::string row(const char* label, const std::string& name, const TissueReport& t) {
-    char text[160];
     const double error =
         t.volume_labels > 0 ? 100 * (t.volume_mesh - t.volume_labels) / t.volume_labels : 0;
-    std::snprintf(text, sizeof text, "%6s  %-32.32s %9zu %7.1f %7.1f %7.2f %8.2f %7d/%d\n", label,
-                  name.c_str(), t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
-                  t.shapes.max_aspect_ratio, error, t.components_out, t.components_in);
-    return text;
+    return formatted("%6s  %-32.32s %9zu %7.1f %7.1f %7.2f %8.2f %7d/%d\n", label, name.c_str(),
+                     t.tets, t.shapes.min_dihedral_deg, t.shapes.max_dihedral_deg,
+                     t.shapes.max_aspect_ratio, error, t.components_out, t.components_in);
 }
 
 }  // namespace
@@ -212,14 +211,12 @@ std::string to_table(const LevelSetReport& report) {
         " label  name                                   mm^3       %    mean    95 %     max  "
         "changed  pieces\n";
     for (const LevelSetTissue& t : report.tissues) {
-        char text[200];
         const auto s = t.tissue.smoothing.value_or(levelset::SmoothingReport{});
         const double change = t.tissue.volume > 0 ? 100 * (t.volume / t.tissue.volume - 1) : 0;
-        std::snprintf(text, sizeof text, "%6s  %-32.32s %10.6g %7.2f %7.3f %7.3f %7.3f %8lld %7d\n",
-                      key_text(t.tissue.layer, t.tissue.label).c_str(), t.tissue.name.c_str(),
-                      t.volume, change, s.moved_mean, s.moved_95, s.moved_max,
-                      static_cast<long long>(s.voxels_lost + s.voxels_gained), t.components);
-        table += text;
+        table += formatted("%6s  %-32.32s %10.6g %7.2f %7.3f %7.3f %7.3f %8lld %7d\n",
+                           key_text(t.tissue.layer, t.tissue.label).c_str(), t.tissue.name.c_str(),
+                           t.volume, change, s.moved_mean, s.moved_95, s.moved_max,
+                           static_cast<long long>(s.voxels_lost + s.voxels_gained), t.components);
     }
     return table;
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "Core/Text.h"
 #include "Meshing/Refine.h"
 #include "Meshing/Select.h"
 
@@ -139,21 +139,18 @@ Forecast forecast(const meshing::Options& sizes, const Scan& scan) {
 }
 
 std::string to_sentence(const Forecast& forecast) {
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
+    return formatted(
         "forecast at an edge length of %.3g mm: about %.2g tetrahedra, %.2g GB of memory, "
         "%.2g s of processor time",
         forecast.edge_length, forecast.tets, 1e-9 * forecast.bytes, forecast.seconds);
-    return text;
 }
 
 void require_room_for(const Forecast& forecast, double available_bytes) {
-    char limit[160];
+    std::string limit;
     if (!(forecast.tets <= kMostTets))
-        std::snprintf(limit, sizeof limit, "one run can number %.2g tetrahedra", kMostTets);
+        limit = formatted("one run can number %.2g tetrahedra", kMostTets);
     else if (!(forecast.bytes <= available_bytes))
-        std::snprintf(limit, sizeof limit, "%.2g GB are available", 1e-9 * available_bytes);
+        limit = formatted("%.2g GB are available", 1e-9 * available_bytes);
     else
         return;
     throw ResourceError(to_sentence(forecast) + ", but " + limit +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "Core/Text.h"
 #include "ReportText.h"
 #include "SurfaceJob.h"
 
@@ -74,13 +74,11 @@ std::string to_table(const SurfaceReport& report) {
         "loops        mm\n";
     for (const SurfaceTissue& t : report.tissues) {
         const surface::Quality& q = t.quality;
-        char text[200];
-        std::snprintf(text, sizeof text, "%6d  %-32.32s %9zu %7.1f %7.1f %7.3g %7lld %6d %9.4g\n",
-                      t.tissue.label, t.tissue.name.c_str(), q.triangles, q.smallest_angle_deg,
-                      q.largest_angle_deg, q.median_edge,
-                      static_cast<long long>(q.euler_characteristic), q.boundary_loops,
-                      q.boundary_length);
-        table += text;
+        table +=
+            formatted("%6d  %-32.32s %9zu %7.1f %7.1f %7.3g %7lld %6d %9.4g\n", t.tissue.label,
+                      t.tissue.name.c_str(), q.triangles, q.smallest_angle_deg, q.largest_angle_deg,
+                      q.median_edge, static_cast<long long>(q.euler_characteristic),
+                      q.boundary_loops, q.boundary_length);
         for (const std::string& sentence : t.broken_promises)
             table += "        broken promise: " + sentence + "\n";
     }

@@ -2,17 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
+
+#include "Core/Text.h"
 
 namespace myotet::app {
 
 /// A number as people read it: three digits.
-[[nodiscard]] inline std::string readable(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", number);
-    return text;
-}
+[[nodiscard]] inline std::string readable(double number) { return formatted("%.3g", number); }
 
 /// "1 voxel", "2 voxels".
 [[nodiscard]] inline std::string counted(std::int64_t count, const std::string& thing) {

@@ -2,11 +2,11 @@
 #include "Cage/Embedding.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
+#include "Core/Text.h"
 
 namespace myotet::cage {
 namespace {
@@ -14,11 +14,7 @@ namespace {
 constexpr std::size_t kFew = 256;    // points looked for at a time
 constexpr std::size_t kMany = 8192;  // points moved at a time
 
-std::string shown(const Vec3& p) {
-    char text[96];
-    std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z());
-    return text;
-}
+std::string shown(const Vec3& p) { return formatted("(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z()); }
 
 void require_finite(std::span<const Vec3> points) {
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -29,8 +25,7 @@ void require_finite(std::span<const Vec3> points) {
 
 [[noreturn]] void refuse(std::size_t outside, std::size_t farthest, double distance,
                          const Vec3& p) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", distance);
+    const std::string text = formatted("%.3g", distance);
     throw MeshError(std::to_string(outside) + " points lie outside of the mesh, point " +
                     std::to_string(farthest) + " at " + shown(p) + " farthest, by " + text +
                     " mm; give a mesh that encloses them, or let them go with the nearest "

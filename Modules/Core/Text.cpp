@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdarg>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -21,6 +23,17 @@ std::string rounded(double number) {
     const auto [end, error] =
         std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
     return {digits, end};
+}
+
+std::string formatted(const char* form, ...) {
+    va_list values, again;
+    va_start(values, form);
+    va_copy(again, values);
+    std::string text(std::max(0, std::vsnprintf(nullptr, 0, form, values)), '\0');
+    std::vsnprintf(text.data(), text.size() + 1, form, again);
+    va_end(again);
+    va_end(values);
+    return text;
 }
 
 std::optional<double> to_number(std::string_view text) {

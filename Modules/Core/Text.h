@@ -16,6 +16,9 @@ namespace myotet {
 /// A number for a reader: six digits at most.
 [[nodiscard]] std::string rounded(double number);
 
+/// What printf would write, however long it is.
+[[nodiscard, gnu::format(printf, 1, 2)]] std::string formatted(const char* form, ...);
+
 /// The number that the whole text is, "nan" and "inf" included, whatever the locale;
 /// nothing otherwise.
 [[nodiscard]] std::optional<double> to_number(std::string_view text);

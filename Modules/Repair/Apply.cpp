@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Repair/Apply.h"
 
-#include <cstdio>
-
+#include "Core/Text.h"
 #include "Repair/Steps.h"
 
 namespace myotet::repair {
 
 std::string to_sentence(const StepReport& report) {
-    char volumes[96];
-    std::snprintf(volumes, sizeof volumes, " gained %.4g mm^3 and lost %.4g mm^3", report.added,
-                  report.removed);
+    const std::string volumes =
+        formatted(" gained %.4g mm^3 and lost %.4g mm^3", report.added, report.removed);
     return "step " + std::to_string(report.number) + ", " + report.what + ": " + report.tissue +
            volumes + (report.note.empty() ? "" : "; " + report.note);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "Core/Text.h"
 #include "LevelSet/CsgMeasure.h"
 #include "LevelSet/CsgPieces.h"
 #include "LevelSet/CsgTable.h"
@@ -19,17 +19,11 @@ constexpr double kLocal = 5;  // mm
 // Thinner than three samples across, a bridge would come apart.
 constexpr double kThinnest = 1.5;  // samples
 
-std::string mm(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string mm(double value) { return formatted("%.3g", value); }
 
 std::string lps(const Vec3& local, const Workshop& shop) {
     const Vec3 p = shop.scene().frame.to_lps(local);
-    char text[80];
-    std::snprintf(text, sizeof text, "[%.1f, %.1f, %.1f]", p.x(), p.y(), p.z());
-    return text;
+    return formatted("[%.1f, %.1f, %.1f]", p.x(), p.y(), p.z());
 }
 
 std::string join_names(const std::vector<int>& tissues, const Workshop& shop) {

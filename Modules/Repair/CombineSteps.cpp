@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
 #include "LevelSet/CsgMeasure.h"
 #include "LevelSet/CsgTable.h"
 #include "LevelSet/FromSurface.h"
@@ -54,9 +54,8 @@ Band solid_band(const Solid& solid, const Box& domain, Workshop& shop) {
 
 void tell_guess(const std::filesystem::path& file, const levelset::HealSummary& healed,
                 Workshop& shop) {
-    char text[128];
-    std::snprintf(
-        text, sizeof text, ": %lld holes were closed by a guess, %.3g mm^2 or %.2g %% of it",
+    const std::string text = formatted(
+        ": %lld holes were closed by a guess, %.3g mm^2 or %.2g %% of it",
         static_cast<long long>(healed.holes), healed.guessed_area, 100 * healed.guessed_share);
     shop.progress().warn(file.string() + text);
 }

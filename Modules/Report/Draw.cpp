@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
 #include "Report/ColourMap.h"
 #include "Report/Raster.h"
 #include "Report/Text.h"
@@ -148,11 +148,7 @@ std::vector<FlatTriangle> flatten(std::span<const Shape> shapes, const View& vie
     return flat;
 }
 
-std::string shown(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", number);
-    return text;
-}
+std::string shown(double number) { return formatted("%.4g", number); }
 
 // At the bottom: the name, the bar, its ends' numbers.
 void draw_bar(Picture& picture, const View& view, const Layout& layout) {

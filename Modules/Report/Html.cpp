@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "Core/Text.h"
 
@@ -64,14 +63,11 @@ std::string grouped(const std::string& digits) {
 
 std::string readable(double number) {
     constexpr double kLargestGrouped = 1e15, kLeastWhole = 1000;
-    char text[40];
     const bool whole = number == std::floor(number) || std::abs(number) >= kLeastWhole;
     if (whole && std::abs(number) < kLargestGrouped) {
-        std::snprintf(text, sizeof text, "%.0f", number);
-        return grouped(text);
+        return grouped(formatted("%.0f", number));
     }
-    std::snprintf(text, sizeof text, std::abs(number) >= 1 ? "%.4g" : "%.3g", number);
-    return text;
+    return formatted(std::abs(number) >= 1 ? "%.4g" : "%.3g", number);
 }
 
 }  // namespace
@@ -99,9 +95,7 @@ std::string json_text(std::string_view text) {
         } else if (c == '"' || c == '\\') {
             json += {'\\', c};
         } else if (c == '<' || (c >= 0 && c < ' ')) {
-            char code[8];
-            std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-            json += code;
+            json += formatted("\\u%04x", static_cast<unsigned>(c));
         } else {
             json += text.substr(0, length);
         }
@@ -130,13 +124,10 @@ std::string data_uri(const Picture& picture) {
 }
 
 std::string css_colour(const Colour& colour) {
-    char text[8];
     const auto byte = [](double share) {
         return static_cast<unsigned>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
     };
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(colour[0]), byte(colour[1]),
-                  byte(colour[2]));
-    return text;
+    return formatted("#%02x%02x%02x", byte(colour[0]), byte(colour[1]), byte(colour[2]));
 }
 
 std::string number_html(double number) {

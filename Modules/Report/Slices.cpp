@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
 #include "Report/Html.h"
 
 namespace myotet::report {
@@ -47,11 +47,7 @@ Vec3 crossing_point(const TriMesh& surface, const Edge& edge, int axis, double a
     return a + (at - a[axis]) / (b[axis] - a[axis]) * (b - a);
 }
 
-std::string decimal(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", x);
-    return text;
-}
+std::string decimal(double x) { return formatted("%.2f", x); }
 
 std::string path_of(const std::vector<Vec3>& curve, const SliceView& view) {
     std::string path;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "Core/Errors.h"
 #include "Core/Text.h"
@@ -20,11 +19,7 @@ constexpr double kRoom = 0.05;        // of a range, at either end
 constexpr double kLeastShare = 1e-6;  // of a range's larger end: what a scale can show
 constexpr double kFarthest = 1e99;
 
-std::string coordinate(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", x);
-    return text;
-}
+std::string coordinate(double x) { return formatted("%.1f", x); }
 
 struct Axes {
     Range x, y;

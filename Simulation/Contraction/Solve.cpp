@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "Contraction/Words.h"
+#include "Core/Text.h"
 
 namespace myotet::contraction {
 namespace {
@@ -256,12 +257,10 @@ std::string Simulation::trouble() const {
         const bool quadratic = body.nodes != body.mesh.mesh.points.size();
         const std::size_t point = quadratic ? 4 * worst[i].tet : worst[i].tet;
         const double J = body.elastic->gradients()[point].determinant();
-        char place[160];
-        std::snprintf(place, sizeof place,
-                      " tetrahedron %zu of %s at (%.0f, %.0f, %.0f) mm, J %.3g", worst[i].tet,
-                      scene_.bodies[worst[i].body].name.c_str(), centre.x(), centre.y(), centre.z(),
-                      J);
-        text += (i > 0 ? "," : "") + std::string(place);
+        text += (i > 0 ? "," : "") +
+                formatted(" tetrahedron %zu of %s at (%.0f, %.0f, %.0f) mm, J %.3g", worst[i].tet,
+                          scene_.bodies[worst[i].body].name.c_str(), centre.x(), centre.y(),
+                          centre.z(), J);
     }
     return text + "; try a shorter 'step', a finer mesh there or a stiffer matrix";
 }

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "Contraction/Run.h"
 #include "Core/Errors.h"
-#include "MeshFiles/MeshFiles.h"
+#include "MeshFiles/Series.h"
 
 namespace myotet::play {
 namespace fs = std::filesystem;
@@ -41,9 +40,7 @@ private:
 };
 
 fs::path numbered(const char* stem, std::size_t frame, const char* extension) {
-    char name[64];
-    std::snprintf(name, sizeof name, "%s_%04zu%s", stem, frame, extension);
-    return fs::path("frames") / name;
+    return fs::path("frames") / (stem + ("_" + meshfiles::frame_digits(frame)) + extension);
 }
 
 std::map<std::int32_t, std::string> names_of(const World& world) {
