@@ -10,6 +10,7 @@
 #include "Core/Sha256.h"
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"
+#include "Costs.h"
 #include "Machine.h"
 #include "Outputs.h"
 #include "Report/Chart.h"
@@ -288,8 +289,7 @@ ActivateReport run_activate_job(const ActivateJobOptions& options, ProgressSink&
         if (options.pictures) results.draw(chart_of(input.model, motion, sharing));
     }
     report.seconds["writing"] = watch.lap();
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
+    note_costs(report);
     results.finish();
     return report;
 }

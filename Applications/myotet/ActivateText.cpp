@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ActivateJob.h"
+#include "Costs.h"
 #include "Text.h"
 
 namespace myotet::app {
@@ -46,10 +47,7 @@ std::string to_json(const ActivateReport& report) {
                                        {"reserve_rms" + unit, c.reserve_rms},
                                        {"most_missing" + unit, c.missing}});
     }
-    json["seconds"] = report.seconds;
-    json["processor_seconds"] = report.processor_seconds;
-    json["peak_memory_bytes"] = report.peak_memory;
-    json["warnings"] = report.warnings;
+    add_costs(json, report);
     json["notes"] = report.notes;
     json["files"] = report.files;
     return json.dump(2) + "\n";

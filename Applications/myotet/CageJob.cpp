@@ -10,6 +10,7 @@
 #include "Core/Sha256.h"
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"
+#include "Costs.h"
 #include "InputKind.h"
 #include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
@@ -200,10 +201,8 @@ CageReport run_cage_job(const CageJobOptions& options, ProgressSink& progress) {
     }
     seconds["write"] = watch.lap();
     report.run.seconds = seconds;
-    report.run.peak_memory = peak_memory();
-    report.run.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report.run);
+    write_report(out, report);
     out.keep();
     return report;
 }

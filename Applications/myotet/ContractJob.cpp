@@ -4,6 +4,7 @@
 #include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
+#include "Costs.h"
 #include "Machine.h"
 #include "Outputs.h"
 #include "Pictures.h"
@@ -58,8 +59,7 @@ ContractReport check_scene(const ContractJobOptions& options, ProgressSink& prog
     const ThreadLimit limit(options.threads);
     ContractReport report;
     (void)prepare(options, report, progress);
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
+    note_costs(report);
     return report;
 }
 
@@ -92,10 +92,8 @@ ContractReport run_contract_job(const ContractJobOptions& options, ProgressSink&
         report.run.files.insert(report.run.files.end(), pictures.begin(), pictures.end());
         report.seconds["pictures"] = watch.lap() + drawing;
     }
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report);
+    write_report(out, report);
     out.keep();
     return report;
 }

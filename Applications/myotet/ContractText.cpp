@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ContractJob.h"
+#include "Costs.h"
 #include "HistoryText.h"
 #include "Text.h"
 
@@ -61,10 +62,7 @@ std::string to_json(const ContractReport& report) {
     json["bodies"] = Json::array();
     for (const ContractBody& body : report.bodies) json["bodies"].push_back(body_json(body));
     json["history"] = history_json(run.history);
-    json["seconds"] = report.seconds;
-    json["processor_seconds"] = report.processor_seconds;
-    json["peak_memory_bytes"] = report.peak_memory;
-    json["warnings"] = report.warnings;
+    add_costs(json, report);
     json["files"] = Json::array();
     for (const auto& file : run.files) json["files"].push_back(file.generic_string());
     return json.dump(2) + "\n";

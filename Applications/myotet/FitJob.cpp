@@ -5,6 +5,7 @@
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"
+#include "Costs.h"
 #include "ExitCodes.h"
 #include "Machine.h"
 #include "Outputs.h"
@@ -68,8 +69,7 @@ void write_results(const FitJobOptions& options, FitReport& report) {
         });
     }
     report.files.emplace_back("report.json");
-    out.write("report.json",
-              [&](const fs::path& file) { write_atomically(file, to_json(report)); });
+    write_report(out, report);
     out.keep();
 }
 
@@ -99,8 +99,7 @@ FitReport run_fit_job(const FitJobOptions& options, ProgressSink& progress) {
     report.seconds["preparation"] = watch.lap();
     report.fitted = fit(scene, model, body, target, options, progress);
     report.seconds["fit"] = watch.lap();
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
+    note_costs(report);
     write_results(options, report);
     return report;
 }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Core/Text.h"
+#include "Costs.h"
 #include "FitJob.h"
 
 namespace myotet::app {
@@ -36,10 +37,7 @@ std::string to_json(const FitReport& report) {
     json["misfit_after_each_evaluation"] = Json::array();
     for (const double rms : fit.history)
         json["misfit_after_each_evaluation"].push_back(rms == rms ? Json(rms) : Json(nullptr));
-    json["seconds"] = report.seconds;
-    json["processor_seconds"] = report.processor_seconds;
-    json["peak_memory_bytes"] = report.peak_memory;
-    json["warnings"] = report.warnings;
+    add_costs(json, report);
     json["files"] = report.files;
     return json.dump(2) + "\n";
 }

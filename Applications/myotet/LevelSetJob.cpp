@@ -7,6 +7,7 @@
 #include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
+#include "Costs.h"
 #include "LevelSet/Extract.h"
 #include "LevelSet/WriteVdb.h"
 #include "Machine.h"
@@ -115,10 +116,8 @@ LevelSetReport run_level_set_job(const LevelSetJobOptions& options, ProgressSink
     seconds["write"] = watch.lap();
 
     report.run.seconds = seconds;
-    report.run.peak_memory = peak_memory();
-    report.run.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report.run);
+    write_report(out, report);
     progress.check();
     out.keep();
     progress.report("writing", 1);

@@ -4,6 +4,7 @@
 #include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
+#include "Costs.h"
 #include "Machine.h"
 #include "MeshStages.h"
 #include "ReportText.h"
@@ -68,10 +69,8 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     seconds["write"] = watch.lap();
 
     report.run.seconds = seconds;
-    report.run.peak_memory = peak_memory();
-    report.run.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report.run);
+    write_report(out, report);
     progress.check();
     out.keep();
     progress.report("writing", 1);

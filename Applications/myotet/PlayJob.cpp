@@ -6,6 +6,7 @@
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"
+#include "Costs.h"
 #include "Machine.h"
 #include "Outputs.h"
 #include "Pictures.h"
@@ -68,8 +69,7 @@ PlayReport check_play(const PlayJobOptions& options, ProgressSink& progress) {
     const ThreadLimit limit(options.threads);
     PlayReport report;
     (void)prepare(options, report, progress);
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
+    note_costs(report);
     return report;
 }
 
@@ -99,10 +99,8 @@ PlayReport run_play_job(const PlayJobOptions& options, ProgressSink& progress) {
         report.run.files.insert(report.run.files.end(), pictures.begin(), pictures.end());
         report.seconds["pictures"] = watch.lap() + drawing;
     }
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report);
+    write_report(out, report);
     out.keep();
     return report;
 }

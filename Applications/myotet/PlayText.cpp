@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "Costs.h"
 #include "PlayJob.h"
 #include "Text.h"
 
@@ -73,10 +74,7 @@ std::string to_json(const PlayReport& report) {
                        {"friction", report.contact.friction}};
     json["bodies"] = Json::array();
     for (const PlayPart& part : report.parts) json["bodies"].push_back(part_json(part));
-    json["seconds"] = report.seconds;
-    json["processor_seconds"] = report.processor_seconds;
-    json["peak_memory_bytes"] = report.peak_memory;
-    json["warnings"] = report.warnings;
+    add_costs(json, report);
     json["files"] = Json::array();
     for (const auto& file : run.files) json["files"].push_back(file.generic_string());
     return json.dump(2) + "\n";

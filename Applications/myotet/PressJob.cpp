@@ -10,6 +10,7 @@
 #include "Core/Parallel.h"
 #include "Core/Sha256.h"
 #include "Core/Stopwatch.h"
+#include "Costs.h"
 #include "Machine.h"
 #include "MeshFiles/Series.h"
 #include "Outputs.h"
@@ -276,10 +277,8 @@ PressReport run_press_job(const PressJobOptions& options, ProgressSink& progress
     report.seconds["press"] = watch.lap();
     if (options.pictures) writing.draw(progress);
     report.seconds["pictures"] = watch.lap();
-    report.peak_memory = peak_memory();
-    report.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const fs::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report);
+    write_report(out, report);
     out.keep();
     return report;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "Costs.h"
 #include "HistoryText.h"
 #include "PressJob.h"
 #include "Text.h"
@@ -72,10 +73,7 @@ std::string to_json(const PressReport& report) {
         {"level_switches", report.switches},
         {"switched_energy_N_mm", report.switched_energy}};
     json["history"] = history_json(report.history);
-    json["seconds"] = report.seconds;
-    json["processor_seconds"] = report.processor_seconds;
-    json["peak_memory_bytes"] = report.peak_memory;
-    json["warnings"] = report.warnings;
+    add_costs(json, report);
     json["notes"] = report.notes;
     json["files"] = report.files;
     return json.dump(2) + "\n";

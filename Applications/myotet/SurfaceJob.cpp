@@ -7,6 +7,7 @@
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
+#include "Costs.h"
 #include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Outputs.h"
@@ -221,10 +222,8 @@ SurfaceReport run_surface_job(const SurfaceJobOptions& options, ProgressSink& pr
     seconds["write"] = watch.lap();
 
     report.run.seconds = seconds;
-    report.run.peak_memory = peak_memory();
-    report.run.processor_seconds = processor_seconds();
-    out.write("report.json",
-              [&](const std::filesystem::path& file) { write_atomically(file, to_json(report)); });
+    note_costs(report.run);
+    write_report(out, report);
     progress.check();
     out.keep();
     return report;

@@ -29,20 +29,6 @@ std::size_t edits(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-std::string shown(const YamlTree& tree) {
-    switch (tree.kind) {
-        case Kind::scalar:
-            return "'" + tree.text.substr(0, 60) + "'";
-        case Kind::list:
-            return "a list of " + std::to_string(tree.items.size());
-        case Kind::map:
-            return "a map";
-        case Kind::nothing:
-            break;
-    }
-    return "nothing";
-}
-
 }  // namespace
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
@@ -68,7 +54,7 @@ std::string remedy_for(const std::string& word, const std::vector<std::string>& 
 
 Fields::Fields(const YamlTree& tree, std::string where) : tree_(tree), where_(std::move(where)) {
     if (tree.kind != Kind::map)
-        refuse("here stands " + shown(tree) + ", but keys with values must, such as 'radius: 3'");
+        refuse("this is " + shown(tree) + " but must be keys with values, such as 'radius: 3'");
 }
 
 void Fields::refuse(const std::string& why) const { throw InputError(where_ + ": " + why); }

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
 
 namespace myotet::repair {
 namespace {
@@ -18,10 +19,6 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 constexpr int kDeepest = 12;
 // Anchors and aliases can make a small file large.
 constexpr int kMostNodes = 200'000;
-
-[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& why) {
-    throw InputError(file.string() + ":" + std::to_string(line) + ": " + why);
-}
 
 struct Converter {
     const std::filesystem::path& file;
@@ -86,6 +83,20 @@ YamlTree read_yaml(const std::filesystem::path& file) {
     } catch (const YAML::Exception& e) {
         refuse(file, std::max(e.mark.line, 0) + 1, "is no YAML: " + e.msg);
     }
+}
+
+std::string shown(const YamlTree& tree) {
+    switch (tree.kind) {
+        case YamlTree::Kind::scalar:
+            return "'" + tree.text.substr(0, 60) + "'";
+        case YamlTree::Kind::list:
+            return "a list of " + std::to_string(tree.items.size());
+        case YamlTree::Kind::map:
+            return "a map of keys";
+        case YamlTree::Kind::nothing:
+            break;
+    }
+    return "empty";
 }
 
 }  // namespace myotet::repair

@@ -24,4 +24,7 @@ struct YamlTree {
 /// key twice.
 [[nodiscard]] YamlTree read_yaml(const std::filesystem::path& file);
 
+/// What stands there, for a sentence: "'word'", "a list of 3", "a map of keys" or "empty".
+[[nodiscard]] std::string shown(const YamlTree& tree);
+
 }  // namespace myotet::repair

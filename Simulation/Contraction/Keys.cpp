@@ -10,20 +10,6 @@ namespace {
 
 using Kind = YamlTree::Kind;
 
-std::string shown(const YamlTree& tree) {
-    switch (tree.kind) {
-        case Kind::scalar:
-            return "'" + tree.text.substr(0, 60) + "'";
-        case Kind::list:
-            return "a list of " + std::to_string(tree.items.size());
-        case Kind::map:
-            return "a map of keys";
-        case Kind::nothing:
-            break;
-    }
-    return "empty";
-}
-
 /// Of the key that names the map: the map itself begins a line later.
 int line_of(const YamlTree& map) { return map.key_line > 0 ? map.key_line : map.line; }
 
