@@ -30,6 +30,10 @@ std::vector<Spot> spots_about(const std::vector<Vec3>& places, double spacing) {
     return spots;
 }
 
+surface::Guide guide_of(const Part& part, const LevelSet& phi) {
+    return {.phi = field_of(phi), .trim = part.trim, .beside = part.beside};
+}
+
 /// A level set on its way, and what a surface of it can begin with.
 struct Soft {
     LevelSet phi;
@@ -39,14 +43,14 @@ struct Soft {
 
 /// Smooths about `places`, then about what keeps a surface from being held; volume
 /// that would stay as shreds is let go after a few rounds. False where nothing is left.
-bool soften(Soft& soft, std::vector<Vec3> places) {
+bool soften(Soft& soft, const Part& part, std::vector<Vec3> places) {
     for (int i = 0; i < kSoftenings && !places.empty(); ++i) {
         const std::vector<Spot> spots = spots_about(places, soft.phi.spacing);
         levelset::soften(soft.phi, spots, {.steps = kSteps, .keeps_volume = i < kKeeping});
         soft.places += static_cast<int>(spots.size());
         soft.start = levelset::extract_surface(soft.phi);
         if (soft.start.triangles.empty()) return false;
-        places = surface::start_faults(soft.start, field_of(soft.phi), soft.phi.spacing);
+        places = surface::start_faults(soft.start, guide_of(part, soft.phi), soft.phi.spacing);
     }
     return true;
 }
@@ -59,28 +63,28 @@ double farthest(const TriMesh& mesh, const LevelSet& phi) {
 
 }  // namespace
 
-SoftSurface make_soft_surface(const TriMesh& start, const LevelSet& phi, const surface::Field& trim,
-                              const surface::Options& options, ProgressSink& progress) {
+SoftSurface make_soft_surface(const Part& part, const surface::Options& options,
+                              ProgressSink& progress) {
     SoftSurface best;
-    best.made =
-        surface::make_surface(start, {.phi = field_of(phi), .trim = trim}, options, progress);
-    best.parts_before = best.parts_after = surface::count_pieces(start);
-    std::vector<Vec3> places = surface::faults(best.made.mesh, field_of(phi));
+    const surface::Guide hard = guide_of(part, part.phi);
+    best.made = surface::make_surface(part.start, hard, options, progress);
+    best.parts_before = best.parts_after = surface::count_pieces(part.start);
+    std::vector<Vec3> places = surface::faults(best.made.mesh, hard);
     std::size_t fewest = places.size();
     if (fewest == 0) return best;
 
-    Soft soft{.phi = phi, .start = {}};
-    for (int i = 1; i < kTries && !places.empty() && soften(soft, places); ++i) {
+    Soft soft{.phi = part.phi, .start = {}};
+    for (int i = 1; i < kTries && !places.empty() && soften(soft, part, places); ++i) {
         progress.check();
-        surface::Result made = surface::make_surface(
-            soft.start, {.phi = field_of(soft.phi), .trim = trim}, options, progress);
-        places = surface::faults(made.mesh, field_of(soft.phi));
+        const surface::Guide guide = guide_of(part, soft.phi);
+        surface::Result made = surface::make_surface(soft.start, guide, options, progress);
+        places = surface::faults(made.mesh, guide);
         if (places.size() >= fewest) continue;
         fewest = places.size();
         best.made = std::move(made);
         best.softened = soft.phi;
         best.places = soft.places;
-        best.moved = std::max(farthest(start, soft.phi), farthest(best.made.mesh, phi));
+        best.moved = std::max(farthest(part.start, soft.phi), farthest(best.made.mesh, part.phi));
         best.parts_after = surface::count_pieces(soft.start);
     }
     return best;

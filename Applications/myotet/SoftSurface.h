@@ -8,7 +8,15 @@
 
 namespace myotet::app {
 
-/// The surface of one connected part of a tissue.
+/// A connected part of a tissue.
+struct Part {
+    const TriMesh& start;  ///< its extracted zero set
+    const levelset::LevelSet& phi;
+    surface::Field trim;     ///< empty: none
+    surface::Beside beside;  ///< other parts; of a part by itself none
+};
+
+/// Its surface.
 struct SoftSurface {
     surface::Result made;
     /// What holds it where that is not the level set as given.
@@ -22,9 +30,7 @@ struct SoftSurface {
 /// result with faults, phi is smoothed about these and the surface is made anew,
 /// from what the smoothed level set encloses. Of all tries the one with the fewest
 /// faults, the earlier of equals. Throws as make_surface.
-[[nodiscard]] SoftSurface make_soft_surface(const TriMesh& start, const levelset::LevelSet& phi,
-                                            const surface::Field& trim,
-                                            const surface::Options& options,
+[[nodiscard]] SoftSurface make_soft_surface(const Part& part, const surface::Options& options,
                                             ProgressSink& progress);
 
 }  // namespace myotet::app

@@ -11,7 +11,7 @@
 #include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Outputs.h"
-#include "SoftSurface.h"
+#include "SoftParts.h"
 #include "SurfaceStock.h"
 
 namespace myotet::app {
@@ -104,12 +104,10 @@ Made make_tissue(const SurfaceStock& stock, const Tissue& tissue, const surface:
     const std::vector<Region>& regions = stock.sets.sets.regions;
     for (std::size_t r = 0; r < regions.size(); ++r)
         if (belongs(regions[r], tissue)) numbers.push_back(r);
-    std::vector<SoftSurface> parts(numbers.size());
-    parallel_for(0, numbers.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            parts[i] = make_soft_surface(stock.starts[numbers[i]], regions[numbers[i]].phi, trim,
-                                         options, progress);
-    });
+    std::vector<Part> given;
+    for (const std::size_t r : numbers)
+        given.push_back({stock.starts[r], regions[r].phi, trim, {}});
+    const std::vector<SoftSurface> parts = make_soft_parts(given, options, progress);
     std::vector<const levelset::LevelSet*> phis;
     for (std::size_t i = 0; i < parts.size(); ++i)
         phis.push_back(parts[i].softened ? &*parts[i].softened : &regions[numbers[i]].phi);

@@ -131,4 +131,27 @@ std::vector<Pair> crossings(std::span<const Vec3> points, std::span<const Triang
     return pairs;
 }
 
+TriMesh joined(std::span<const Vec3> points, std::span<const Triangle> triangles,
+               const TriMesh& beside) {
+    TriMesh both;
+    both.points.assign(points.begin(), points.end());
+    both.points.insert(both.points.end(), beside.points.begin(), beside.points.end());
+    both.triangles.assign(triangles.begin(), triangles.end());
+    const auto first = static_cast<std::int32_t>(points.size());
+    for (const Triangle& t : beside.triangles)
+        both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return both;
+}
+
+std::vector<Pair> crossings(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                            const TriMesh& beside) {
+    if (beside.triangles.empty()) return crossings(points, triangles);
+    const TriMesh both = joined(points, triangles, beside);
+    std::vector<Pair> pairs = crossings(both.points, both.triangles);
+    std::erase_if(pairs, [own = static_cast<std::int32_t>(triangles.size())](const Pair& pair) {
+        return pair[0] >= own;
+    });
+    return pairs;
+}
+
 }  // namespace myotet::surface

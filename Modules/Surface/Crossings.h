@@ -26,4 +26,13 @@ struct Placed {
 [[nodiscard]] std::vector<std::array<std::int32_t, 2>> crossings(
     std::span<const Vec3> points, std::span<const Triangle> triangles);
 
+/// One mesh after the other; points and triangles of the second are numbered on.
+[[nodiscard]] TriMesh joined(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                             const TriMesh& beside);
+
+/// The same of a mesh with itself and with one beside it, by their numbers in
+/// `joined`; pairs within the second are left out.
+[[nodiscard]] std::vector<std::array<std::int32_t, 2>> crossings(
+    std::span<const Vec3> points, std::span<const Triangle> triangles, const TriMesh& beside);
+
 }  // namespace myotet::surface

@@ -79,22 +79,25 @@ int count_crossings(const Fans& fans, std::span<const Placed> made,
         }
     for (std::size_t i = 0; i < made.size(); ++i)
         for (std::size_t j = i + 1; j < made.size(); ++j) count += cross(made[i], made[j]);
-    const auto against = [&](std::int32_t t) {
-        if (!fans.alive(t)) return;
-        const Triangle& f = fans.triangles[t];
-        const Vec3 &a = fans.points[f[0]], &b = fans.points[f[1]], &c = fans.points[f[2]];
+    const auto against = [&](const Placed& other) {
+        const auto& [a, b, c] = other.at;
         const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
         const auto meets = [&](const Box& x) {
             return (low.array() <= x.max.array()).all() && (high.array() >= x.min.array()).all();
         };
-        if (!meets(box) || std::ranges::find(old, t) != old.end()) return;
-        const Placed other{f, {a, b, c}};
+        if (!meets(box)) return;
         for (std::size_t i = 0; i < made.size(); ++i)
             if (meets(boxes[i])) count += cross(made[i], other);
     };
-    for (const std::int32_t t : fans.beside) against(t);
+    const auto against_own = [&](std::int32_t t) {
+        if (!fans.alive(t) || std::ranges::find(old, t) != old.end()) return;
+        const Triangle& f = fans.triangles[t];
+        against({f, {fans.points[f[0]], fans.points[f[1]], fans.points[f[2]]}});
+    };
+    for (const std::int32_t t : fans.beside) against_own(t);
     for (std::size_t t = fans.later; t < fans.triangles.size(); ++t)
-        against(static_cast<std::int32_t>(t));
+        against_own(static_cast<std::int32_t>(t));
+    for (const Placed& other : fans.others) against(other);
     return count;
 }
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 
-#include "Surface/Crossings.h"
 #include "Surface/Fans.h"
 #include "Surface/Field.h"
 
@@ -64,8 +63,9 @@ private:
 [[nodiscard]] int faults_around(const Fans& fans, const Field& phi, std::int32_t v,
                                 const Corner& at);
 
-/// How many triangles about watched points cross those that are to be made in
-/// place of `old`, these among themselves included; 0 where no corner is watched.
+/// How many triangles about watched points, other meshes' too, cross those that are
+/// to be made in place of `old`, these among themselves included; 0 where no corner
+/// is watched.
 [[nodiscard]] int count_crossings(const Fans& fans, std::span<const Placed> made,
                                   std::span<const std::int32_t> old);
 

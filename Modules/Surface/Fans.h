@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Core/TetMesh.h"
+#include "Surface/Crossings.h"
 
 namespace myotet::surface {
 
@@ -28,7 +28,8 @@ struct Fans {
 
     /// Triangles that those about watched points might cross; later ones, too.
     std::vector<std::int32_t> beside;
-    std::size_t later = 0;  ///< number of the first of these
+    std::size_t later = 0;       ///< number of the first of these
+    std::vector<Placed> others;  ///< of meshes beside this one, to the same end
 
     [[nodiscard]] bool alive(std::size_t triangle) const { return triangles[triangle][0] >= 0; }
 };

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "Core/Geometry.h"
+#include "Core/TetMesh.h"
 
 namespace myotet::surface {
 
@@ -24,10 +24,17 @@ using Field = std::function<FieldSample(const Vec3&)>;
 /// The solid grown by `distance` (mm; negative shrinks it).
 [[nodiscard]] Field offset(Field field, double distance);
 
-/// The level sets that hold a mesh.
+/// Other parts of a solid, next to the one that a mesh is made of.
+struct Beside {
+    Field phi;     ///< of all of them; empty: there are none
+    TriMesh mesh;  ///< their surfaces as they are now
+};
+
+/// What holds a mesh.
 struct Guide {
-    Field phi;   ///< every point stays on its zero set
-    Field trim;  ///< points of the rim stay on its zero set too; empty: none
+    Field phi;      ///< every point stays on its zero set
+    Field trim;     ///< points of the rim stay on its zero set too; empty: none
+    Beside beside;  ///< no triangle crosses one of its mesh
 };
 
 /// Near `from` the point of phi = 0 that steps along the gradient, each about

@@ -54,7 +54,7 @@ Result make_surface(const TriMesh& start, const Guide& guide, const Options& opt
                         .curvature_factor = options.curvature_factor};
     Fans fans = make_fans(start);
     std::ranges::fill(fans.sizes, options.edge_length);
-    CrossingGuard guard(fans);
+    CrossingGuard guard(fans, guide.beside.mesh);
     guard.run([&] { place_all(fans, guide); });
     remesh(fans, guide, guard, sizing, kRounds);
     progress.check();

@@ -115,24 +115,26 @@ Vec3 middle_of_star(const Fans& fans, std::int32_t v) {
 }
 
 /// What the surface at a point wants.
-double size_at(const Field& phi, const Vec3& point, const Sizing& sizing) {
-    const double k = largest_curvature(phi, point, sizing.smallest_length);
+double size_at(const Guide& guide, const Vec3& point, const Sizing& sizing) {
+    const double k = largest_curvature(guide.phi, point, sizing.smallest_length);
     if (!(k > 0)) return sizing.edge_length;
     const double bent = std::min(sizing.curvature_factor / k, sizing.edge_length);
     if (bent <= sizing.smallest_length) return sizing.smallest_length;
     // L^2 k / 8 <= thickness / 4
     const double enough = 0.5 * bent * bent * k;
-    const double thin = std::sqrt(thickness(phi, point, enough) / enough);
+    double room = thickness(guide.phi, point, enough);
+    if (guide.beside.phi) room = std::clamp(guide.beside.phi(point).value, 0.0, room);
+    const double thin = std::sqrt(room / enough);
     return std::max(bent * thin, sizing.smallest_length);
 }
 
 }  // namespace
 
-void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing) {
+void find_sizes(Fans& fans, const Guide& guide, const Sizing& sizing) {
     parallel_for(0, fans.points.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v) {
             if (fans.around[v].empty()) continue;
-            fans.sizes[v] = std::min(size_at(phi, fans.points[v], sizing), fans.caps[v]);
+            fans.sizes[v] = std::min(size_at(guide, fans.points[v], sizing), fans.caps[v]);
         }
     });
     for (int sweep = 0; sweep < kGrowthSweeps; ++sweep)
@@ -173,7 +175,7 @@ void smooth(Fans& fans, const Guide& guide) {
 void remesh(Fans& fans, const Guide& guide, CrossingGuard& guard, const Sizing& sizing,
             int rounds) {
     for (int round = 0; round < rounds; ++round) {
-        find_sizes(fans, guide.phi, sizing);
+        find_sizes(fans, guide, sizing);
         guard.run([&] {
             split_long_edges(fans, guide);
             collapse_short_edges(fans, guide);

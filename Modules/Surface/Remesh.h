@@ -17,9 +17,9 @@ struct Sizing {
 
 /// Wished edge lengths at all points: by curvature, and so that a chord leaves
 /// its arc by no more than a quarter of the solid's thickness there or of the
-/// gap beside it, lest the two sides cross; growing by at most a quarter of the
-/// way from one point to the next.
-void find_sizes(Fans& fans, const Field& phi, const Sizing& sizing);
+/// gap beside it, also to other parts, lest the two sides cross; growing by at most a
+/// quarter of the way from one point to the next.
+void find_sizes(Fans& fans, const Guide& guide, const Sizing& sizing);
 
 /// Isotropic remeshing towards the wished lengths (Botsch, Kobbelt 2004):
 /// splits edges longer than 4/3 of it, collapses edges shorter than 4/5, flips

@@ -47,7 +47,8 @@ LevelSet noise(unsigned seed) {
 
 SoftSurface make(const LevelSet& phi, const surface::Field& trim = {}) {
     SilentProgress silent;
-    return make_soft_surface(levelset::extract_surface(phi), phi, trim,
+    const TriMesh start = levelset::extract_surface(phi);
+    return make_soft_surface({start, phi, trim, {}},
                              {.edge_length = 2.4, .smallest_edge_length = 0.6}, silent);
 }
 

@@ -42,6 +42,17 @@ TEST(Crossings, triangles_that_share_a_point) {
     EXPECT_EQ(crossings(mesh.points, mesh.triangles), Pairs{});
 }
 
+TEST(Crossings, with_a_mesh_beside_by_their_numbers_after_one_another) {
+    TriMesh both = two_triangles(-1), beside = two_triangles(-1);
+    const TriMesh own{.points = both.points, .triangles = {both.triangles[0]}};
+    // That within the mesh beside is its own affair.
+    EXPECT_EQ(crossings(own.points, own.triangles, beside), (Pairs{{0, 2}}));
+    EXPECT_EQ(crossings(own.points, own.triangles, TriMesh{}), Pairs{});
+    const TriMesh all = joined(own.points, own.triangles, beside);
+    EXPECT_EQ(all.points.size(), 12u);
+    EXPECT_EQ(all.triangles[2], (Triangle{9, 10, 11}));
+}
+
 TEST(Crossings, a_ball_has_none_and_two_that_overlap_have_a_ring) {
     const Shape shape = ball(3, 0.5);
     EXPECT_EQ(crossings(shape.start.points, shape.start.triangles), Pairs{});

@@ -20,8 +20,8 @@ TEST(Faults, a_good_mesh_has_none) {
     SilentProgress silent;
     const Result r =
         make_surface(shape.start, {.phi = shape.field(), .trim = {}}, {.edge_length = 0.6}, silent);
-    EXPECT_TRUE(faults(r.mesh, shape.field()).empty());
-    EXPECT_TRUE(start_faults(shape.start, shape.field(), 0.25).empty());
+    EXPECT_TRUE(faults(r.mesh, {.phi = shape.field()}).empty());
+    EXPECT_TRUE(start_faults(shape.start, {.phi = shape.field()}, 0.25).empty());
 }
 
 TEST(Faults, each_is_found_where_it_is) {
@@ -35,11 +35,11 @@ TEST(Faults, each_is_found_where_it_is) {
     TriMesh over = good;
     const std::int32_t n = neighbours(fans, 7).front();
     over.points[7] += 2.2 * (over.points[n] - over.points[7]);
-    EXPECT_LT(nearest(faults(over, shape.field()), over.points[n]), 0.7);
+    EXPECT_LT(nearest(faults(over, {.phi = shape.field()}), over.points[n]), 0.7);
     // A point off the surface, by 2 % of an edge.
     TriMesh off = good;
     off.points[7] *= 1 + 0.014 / 3;
-    const std::vector<Vec3> places = faults(off, shape.field());
+    const std::vector<Vec3> places = faults(off, {.phi = shape.field()});
     ASSERT_EQ(places.size(), 1u);
     EXPECT_EQ(places[0], off.points[7]);
 }
@@ -58,10 +58,10 @@ TEST(Faults, a_start_that_joins_what_phi_keeps_apart) {
     const Shape joined = specks(true), apart = specks(false);
     ASSERT_EQ(count_pieces(joined.start), 1);
     ASSERT_EQ(count_pieces(apart.start), 2);
-    const std::vector<Vec3> places = start_faults(joined.start, joined.field(), 1);
+    const std::vector<Vec3> places = start_faults(joined.start, {.phi = joined.field()}, 1);
     EXPECT_FALSE(places.empty());
     for (const Vec3& p : places) EXPECT_LT((p - Vec3(0.5, 0.5, 0)).norm(), 0.5);
-    EXPECT_TRUE(start_faults(apart.start, apart.field(), 1).empty());
+    EXPECT_TRUE(start_faults(apart.start, {.phi = apart.field()}, 1).empty());
 }
 
 TEST(Faults, not_at_a_boundary) {
@@ -74,7 +74,7 @@ TEST(Faults, not_at_a_boundary) {
     const Fans fans = make_fans(half);
     for (std::size_t v = 0; v < half.points.size(); ++v)
         if (fans.rim[v]) half.points[v] *= 1.02;
-    EXPECT_TRUE(faults(half, shape.field()).empty());
+    EXPECT_TRUE(faults(half, {.phi = shape.field()}).empty());
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(TurnBack, a_point_pulled_over_its_neighbours_returns) {
         fans.normals[v] = over->normal;
     }
     ASSERT_GT(turned(fans, guide.phi), 0);
-    CrossingGuard guard(fans);
+    CrossingGuard guard(fans, guide.beside.mesh);
     turn_back(fans, guide, guard);
     EXPECT_EQ(turned(fans, guide.phi), 0);
     const Quality q = measure(to_mesh(fans), guide);
@@ -50,7 +50,7 @@ TEST(TurnBack, nothing_changes_where_nothing_is_turned_over) {
     const Guide guide{.phi = shape.field()};
     Fans fans = fans_of(shape, 0.6);
     const Fans before = fans;
-    CrossingGuard guard(fans);
+    CrossingGuard guard(fans, guide.beside.mesh);
     turn_back(fans, guide, guard);
     EXPECT_EQ(fans.points, before.points);
     EXPECT_EQ(fans.triangles, before.triangles);
