@@ -13,7 +13,7 @@ namespace myotet::app {
 /// other leave their arcs, these parts are made again one after the other, each beside
 /// the others as they are: extracted, or made. What is said of a part's `beside` means
 /// nothing. The same bytes on any number of threads. Throws as make_surface.
-/// Cost: where none cross a search for crossings; else at most kRounds times as much
+/// Cost: where none cross a search for crossings; else at most three times as much
 /// again for the parts that do.
 [[nodiscard]] std::vector<SoftSurface> make_soft_parts(std::span<const Part> parts,
                                                        const surface::Options& options,

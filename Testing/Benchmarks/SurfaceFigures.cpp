@@ -53,6 +53,9 @@ void expect_all(const fs::path& input, std::size_t tissues, double voxel) {
 
 TEST(SurfaceFigures, Arm) { expect_all(kData / "arm/bp3d_right_ua1.nii.gz", 32, 1); }
 
+// Of its gracilis tendon two specks touch; samples are 0.43 mm apart.
+TEST(SurfaceFigures, Knee) { expect_all(kData / "labels/spl_knee/spl_knee_seg.nrrd", 49, 0.43); }
+
 TEST(SurfaceFigures, Trunk) {
     expect_all(kData / "labels/totalsegmentator/example_seg_fast_force_split.nii.gz", 61, 3);
 }

@@ -117,7 +117,7 @@ TEST(SoftParts, chords_of_one_part_do_not_reach_through_another) {
 }
 
 TEST(SoftParts, a_part_between_two_others) {
-    for (const unsigned seed : {0u, 3u}) {
+    for (const unsigned seed : {2u, 3u, 5u}) {
         SCOPED_TRACE(seed);
         const Layers three = layers(seed, {-20, -1.5, 1.5, 20}, 0.1);
         EXPECT_GT(count_crossings(make_alone(three)), 0u) << "or nothing was tried";
