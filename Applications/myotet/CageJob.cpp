@@ -166,6 +166,8 @@ RunFacts describe(const CageJobOptions& options, const Source& source) {
     facts.options_number.emplace_back("tets", static_cast<double>(options.cage.tets));
     facts.options_number.emplace_back("offset_ratio", options.cage.offset_ratio);
     facts.options_number.emplace_back("angle_deg", options.cage.angle_deg);
+    facts.options_number.emplace_back("max_angle_deg", options.cage.max_angle_deg);
+    facts.options_number.emplace_back("max_aspect_ratio", options.cage.max_aspect_ratio);
     facts.options_number.emplace_back("tries", options.cage.tries);
     facts.options_number.emplace_back("seed", static_cast<double>(options.cage.seed));
     return facts;

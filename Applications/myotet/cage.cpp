@@ -41,6 +41,18 @@ void add_cage_options(CLI::App& command, cage::Options& cage) {
         ->type_name("DEG")
         ->capture_default_str();
     command
+        .add_option("--max-angle", cage.max_angle_deg,
+                    "largest dihedral angle to be content with, degrees (default: 180 less "
+                    "1/0.7 of --angle)")
+        ->check(CLI::Range(90.0, 179.0))
+        ->type_name("DEG");
+    command
+        .add_option("--max-aspect-ratio", cage.max_aspect_ratio,
+                    "longest edge by shortest altitude to be content with (default: 105 over "
+                    "--angle)")
+        ->check(CLI::Range(1.5, 1000.0))
+        ->type_name("RATIO");
+    command
         .add_option("--tries", cage.tries,
                     "lattices to try, the first as it is, the others turned and shifted; the best "
                     "is taken, also when stopped (Ctrl-C) before all are done")

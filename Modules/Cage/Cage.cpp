@@ -9,6 +9,7 @@
 #include <random>
 
 #include "Cage/Adjust.h"
+#include "Cage/DrawIn.h"
 #include "Cage/Reach.h"
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
@@ -21,8 +22,8 @@ namespace {
 // Relaxation ends after so many rounds, or when that many brought less than the gain.
 constexpr int kRounds = 150, kIdle = 20;
 constexpr double kGain = 0.1;  // degrees
-constexpr int kCloseRounds = 60;
-constexpr double kCloseWeight = 40;
+// Above the angle asked for, so that coordinates rounded in files keep it.
+constexpr double kSpare = 1e-4;
 // Rounded counts of tetrahedra within this of those asked for will do.
 constexpr double kCountOff = 0.03;
 constexpr int kCellSteps = 14;
@@ -84,22 +85,10 @@ void relax(Walls& walls, const RelaxOptions& options, Try& facts,
     }
 }
 
-void draw_close(Walls& walls, RelaxOptions options, Try& facts,
-                const std::function<bool()>& stopped) {
-    options.close = kCloseWeight;
-    Relaxation relaxation(walls, options);
-    for (int round = 0; round < kCloseRounds && !stopped(); ++round) {
-        relaxation.round();
-        ++facts.relax_rounds;
-    }
-    options.close = 0;
-    relax(walls, options, facts, stopped);
-}
-
-double worst_score(const Body& body) {
+double worst_score(const Body& body, const Scale& scale) {
     double least = 90;
     for (std::size_t t = 0; t < body.tets.size(); ++t)
-        least = std::min(least, score_deg(body.corners(t)));
+        least = std::min(least, score_deg(body.corners(t), scale));
     return least;
 }
 
@@ -118,7 +107,8 @@ std::optional<Outcome> run(const Task& task, int number, const std::function<boo
     facts.adjust_steps = adjust(walls, {.offset = offset});
     const RelaxOptions relaxing{.offset = offset,
                                 .cell = task.cell,
-                                .goal = asked.angle_deg,
+                                .scale = asked.scale(),
+                                .goal = (1 + kSpare) * asked.angle_deg,
                                 .seed = asked.seed + static_cast<std::uint64_t>(number)};
     const ReachSummary reached = reach(walls, relaxing, stopped);
     facts.jumps = reached.jumps;
@@ -127,11 +117,11 @@ std::optional<Outcome> run(const Task& task, int number, const std::function<boo
     facts.relax_rounds = reached.rounds;
     facts.reached = reached.reached;
     relax(walls, relaxing, facts, stopped);
-    if (facts.reached) draw_close(walls, relaxing, facts, stopped);
+    if (facts.reached) facts.relax_rounds += draw_in(walls, relaxing, stopped);
     if (stopped()) return std::nullopt;
     facts.tets = static_cast<std::int64_t>(body.tets.size());
     facts.reached = farthest(walls) <= offset;
-    facts.score_deg = worst_score(body);
+    facts.score_deg = worst_score(body, relaxing.scale);
     out.mesh = body.mesh();
     facts.volume = volume(out.mesh);
     out.enclosure = prove_enclosure(out.mesh, task.surface, task.tree);
@@ -188,7 +178,19 @@ void Options::validate() const {
     require(offset_ratio > 0 && std::isfinite(offset_ratio), "offset_ratio", offset_ratio,
             "above 0");
     require(angle_deg > 0 && angle_deg <= 60, "angle_deg", angle_deg, "above 0, and 60 at most");
+    require(max_angle_deg == 0 || (max_angle_deg >= 90 && max_angle_deg < 180), "max_angle_deg",
+            max_angle_deg, "at least 90 and below 180, or 0 for one that goes with angle_deg");
+    require(max_aspect_ratio == 0 || (max_aspect_ratio >= 1.5 && std::isfinite(max_aspect_ratio)),
+            "max_aspect_ratio", max_aspect_ratio,
+            "at least 1.5, or 0 for one that goes with angle_deg");
     require(tries >= 1, "tries", tries, "at least 1");
+}
+
+Scale Options::scale() const {
+    Scale scale;
+    if (max_angle_deg > 0) scale.large = angle_deg / (180 - max_angle_deg);
+    if (max_aspect_ratio > 0) scale.slenderness = angle_deg * max_aspect_ratio;
+    return scale;
 }
 
 Measures measure(const TetMesh& mesh, const TriMesh& surface, const SurfaceTree& tree) {

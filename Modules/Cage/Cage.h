@@ -6,6 +6,7 @@
 #include "Cage/Bombs.h"
 #include "Cage/Enclosure.h"
 #include "Cage/Parts.h"
+#include "Cage/StarShape.h"
 #include "Core/Progress.h"
 
 namespace myotet::cage {
@@ -17,18 +18,21 @@ struct Options {
     /// Boundary nodes end within this part of a cell of the surface. Smaller: closer to the
     /// surface and worse shapes.
     double offset_ratio = 0.4;
-    /// Smallest dihedral angle to be content with, degrees; the largest is held to 180 less
-    /// 1/0.7 of it, the aspect ratio to 105 over it. What is left goes into a closer fit: where
-    /// shapes are better than that, they are given up for less volume. Those of the lattice
-    /// have 60, and little gets better than that.
+    /// Smallest dihedral angle to be content with, degrees. What is left goes into a closer
+    /// fit: where shapes are better than that, they are given up for less volume. Those of the
+    /// lattice have 60, and little gets better than that.
     double angle_deg = 30;
-    int tries = 1;           ///< lattices: the first as it is, others turned and shifted
-    std::uint64_t seed = 1;  ///< of turns and shifts
+    double max_angle_deg = 0;     ///< largest dihedral angle; 0: 180 less 1/0.7 of angle_deg
+    double max_aspect_ratio = 0;  ///< longest edge by shortest altitude; 0: 105 over angle_deg
+    int tries = 1;                ///< lattices: the first as it is, others turned and shifted
+    std::uint64_t seed = 1;       ///< of turns and shifts
     /// Of the surface's triangles with each other. They change nothing about enclosure, but are
     /// most often a mistake; what level sets make has some in creases thinner than a sample.
     Crossings crossings = Crossings::refused;
     /// Throws InputError naming the field, its value and the rule.
     void validate() const;
+    /// By which all three limits score angle_deg.
+    [[nodiscard]] Scale scale() const;
 };
 
 /// What one lattice came to.

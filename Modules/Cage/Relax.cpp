@@ -29,7 +29,8 @@ Relaxation::Relaxation(Walls& walls, const RelaxOptions& options)
     : walls_(walls), body_(walls.body()), options_(options), random_(options.seed) {
     step_.assign(body_.points.size(), kFirstStep * options.cell);
     shape_.resize(body_.tets.size());
-    for (std::size_t t = 0; t < shape_.size(); ++t) shape_[t] = score_deg(body_.corners(t));
+    for (std::size_t t = 0; t < shape_.size(); ++t)
+        shape_[t] = score_deg(body_.corners(t), options_.scale);
     within_.resize(body_.points.size());
     for (std::size_t n = 0; n < within_.size(); ++n) {
         const auto node = static_cast<std::int32_t>(n);
@@ -52,8 +53,8 @@ std::vector<std::int32_t> Relaxation::beyond() const {
 
 void Relaxation::round() {
     const double above = worst() + kAbove;
-    level_ = level_of(all_within() ? std::min(above, options_.goal + kAbove / 2)
-                                   : std::min(above, kOnTheWay));
+    const double most = all_within() ? options_.goal + options_.above : kOnTheWay;
+    level_ = level_of(std::min(above, most), options_.scale);
     for (std::size_t n = 0; n < body_.points.size(); ++n) visit(static_cast<std::int32_t>(n));
     pull_ = std::min(kGrowth * pull_, kStrongest);
 }
@@ -81,7 +82,7 @@ double Relaxation::star_score(const Vec3& x) {
     double least = 90;
     for (std::size_t i = 0; i < star_.tets.size(); ++i) {
         star_.tets[i][star_.corner[i]] = x;
-        least = std::min(least, score_deg(star_.tets[i]));
+        least = std::min(least, score_deg(star_.tets[i], options_.scale));
     }
     return least;
 }
@@ -103,8 +104,16 @@ double Relaxation::energy(std::int32_t node, const Vec3& x) {
 
 void Relaxation::settle(std::int32_t node, const Vec3& x) {
     walls_.move(node, x);
-    for (const std::int32_t t : body_.star[node]) shape_[t] = score_deg(body_.corners(t));
+    for (const std::int32_t t : body_.star[node])
+        shape_[t] = score_deg(body_.corners(t), options_.scale);
     if (!within_[node]) within_[node] = walls_.nearest(node).distance <= options_.offset;
+}
+
+bool Relaxation::falls(std::int32_t node, const Vec3& x) {
+    if (!(options_.floor > 0)) return false;
+    double now = options_.floor;
+    for (const std::int32_t t : body_.star[node]) now = std::min(now, shape_[t]);
+    return star_score(x) < now;
 }
 
 bool Relaxation::accept(std::int32_t node, const Vec3& x, double before, Vec3& wall) {
@@ -114,7 +123,7 @@ bool Relaxation::accept(std::int32_t node, const Vec3& x, double before, Vec3& w
         wall = (walls_.nearest(node).point - x).normalized();
         return false;
     }
-    if (!walls_.allows(node, x, wall)) return false;
+    if (falls(node, x) || !walls_.allows(node, x, wall)) return false;
     settle(node, x);
     return true;
 }

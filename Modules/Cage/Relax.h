@@ -11,7 +11,10 @@ namespace myotet::cage {
 struct RelaxOptions {
     double offset = 0;  ///< mm: boundary nodes are to be within it
     double cell = 0;    ///< mm: the scale of steps
-    double goal = 60;   ///< degrees of score_deg (StarShape.h) that are enough
+    Scale scale;        ///< of score_deg (StarShape.h)
+    double goal = 60;   ///< degrees of it that are enough
+    double above = 1;   ///< degrees over the goal at which shapes begin to count
+    double floor = 0;   ///< degrees below which no move takes a star, nor one below it lower
     double close = 0;   ///< weight of the cage's volume (in cubed cells) beside shapes
     std::uint64_t seed = 1;
 };
@@ -50,6 +53,7 @@ private:
     [[nodiscard]] double shape_energy(const Vec3& x);
     [[nodiscard]] double energy(std::int32_t node, const Vec3& x);
     [[nodiscard]] double star_score(const Vec3& x);
+    [[nodiscard]] bool falls(std::int32_t node, const Vec3& x);
     [[nodiscard]] bool accept(std::int32_t node, const Vec3& x, double before, Vec3& wall);
     [[nodiscard]] bool descend(std::int32_t node, double before);
     void settle(std::int32_t node, const Vec3& x);

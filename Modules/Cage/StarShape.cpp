@@ -46,18 +46,18 @@ bool measure(const Corners4& t, Measures& m) {
 
 }  // namespace
 
-Level level_of(double score) {
-    return {std::cos(score * kDegree), std::cos((180 - score / kLargeToSmall) * kDegree),
-            kSlenderness / score};
+Level level_of(double score, const Scale& scale) {
+    return {std::cos(score * kDegree), std::cos((180 - score / scale.large) * kDegree),
+            scale.slenderness / score};
 }
 
-double score_deg(const Corners4& t) {
+double score_deg(const Corners4& t, const Scale& scale) {
     Measures m;
     if (!measure(t, m)) return 0;
     const auto [least, most] = std::ranges::minmax(m.cosines);
     const double smallest = std::acos(std::clamp(most, -1.0, 1.0)) / kDegree;
     const double largest = std::acos(std::clamp(least, -1.0, 1.0)) / kDegree;
-    return std::min({smallest, kLargeToSmall * (180 - largest), kSlenderness / m.aspect});
+    return std::min({smallest, scale.large * (180 - largest), scale.slenderness / m.aspect});
 }
 
 double badness(const Corners4& t, const Level& level) {

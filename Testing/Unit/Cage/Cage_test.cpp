@@ -38,7 +38,7 @@ struct Asked {
     double ratio, least, most;
 };
 constexpr Asked kAsked[] = {{0.2, 24, 145}, {0.4, 30, 138}, {0.6, 36, 128}, {0.8, 45, 115}};
-// A degree to spare, since the least angles are drawn down to what is enough.
+// The largest angle that goes with the smallest is within what is asked with a degree more.
 constexpr double kSpare = 1;
 
 TEST(Cage, ABananaAtEveryRatio) {
@@ -102,8 +102,28 @@ TEST(Cage, AnAngleToBeContentWithBuysACloserFit) {
     const Cage best = cage_of(surface, {.cell = 8, .offset_ratio = 0.6, .angle_deg = 60});
     const Cage close = cage_of(surface, {.cell = 8, .offset_ratio = 0.6, .angle_deg = 30});
     expect_promises(close, surface);
-    EXPECT_GE(close.measures.min_dihedral_deg, 29);
+    EXPECT_GE(close.measures.min_dihedral_deg, 30);
     EXPECT_LT(close.measures.volume_ratio, best.measures.volume_ratio - 0.1);
+}
+
+TEST(Cage, EachLimitIsHeldByItself) {
+    const TriMesh surface = banana();
+    const Options loose{.cell = 8, .offset_ratio = 0.6, .angle_deg = 25};
+    Options flat = loose, slender = loose;
+    flat.max_angle_deg = 115;
+    slender.max_aspect_ratio = 2.6;
+    const Cage by_all = cage_of(surface, loose), by_angle = cage_of(surface, flat),
+               by_aspect = cage_of(surface, slender);
+    for (const Cage* cage : {&by_all, &by_angle, &by_aspect}) {
+        expect_promises(*cage, surface);
+        EXPECT_GE(cage->measures.min_dihedral_deg, 25);
+    }
+    EXPECT_LE(by_all.measures.max_dihedral_deg, 180 - 25 / 0.7);
+    EXPECT_LE(by_all.measures.max_aspect_ratio, 105.0 / 25);
+    EXPECT_LE(by_angle.measures.max_dihedral_deg, 115);
+    EXPECT_LE(by_aspect.measures.max_aspect_ratio, 2.6);
+    EXPECT_LT(by_all.measures.volume_ratio, by_angle.measures.volume_ratio);
+    EXPECT_LT(by_all.measures.volume_ratio, by_aspect.measures.volume_ratio);
 }
 
 TEST(Cage, MoreTriesAreNeverWorseAndSeedsMatter) {
@@ -113,7 +133,13 @@ TEST(Cage, MoreTriesAreNeverWorseAndSeedsMatter) {
     const Cage other = cage_of(surface, {.cell = 9, .offset_ratio = 0.4, .tries = 3, .seed = 2});
     ASSERT_EQ(three.tries.size(), 3u);
     EXPECT_EQ(three.tries[0].score_deg, one.tries[0].score_deg);
-    EXPECT_GE(three.tries[static_cast<std::size_t>(three.best)].score_deg, one.tries[0].score_deg);
+    const Try &first = one.tries[0], &best = three.tries[static_cast<std::size_t>(three.best)];
+    if (first.score_deg >= Options{}.angle_deg) {
+        EXPECT_GE(best.score_deg, Options{}.angle_deg);
+        EXPECT_LE(best.volume, first.volume);
+    } else {
+        EXPECT_GE(best.score_deg, first.score_deg);
+    }
     EXPECT_NE(three.tries[1].score_deg, other.tries[1].score_deg);
 }
 
@@ -154,6 +180,10 @@ TEST(Cage, BadOptionsAreRefusedByName) {
     refused({.cell = 8, .offset_ratio = 0}, "offset_ratio");
     refused({.cell = 8, .offset_ratio = std::nan("")}, "offset_ratio");
     refused({.cell = 8, .angle_deg = 70}, "angle_deg");
+    refused({.cell = 8, .max_angle_deg = 80}, "max_angle_deg");
+    refused({.cell = 8, .max_angle_deg = 180}, "max_angle_deg");
+    refused({.cell = 8, .max_aspect_ratio = 1}, "max_aspect_ratio");
+    refused({.cell = 8, .max_aspect_ratio = std::nan("")}, "max_aspect_ratio");
     refused({.cell = 8, .tries = 0}, "tries");
 }
 
