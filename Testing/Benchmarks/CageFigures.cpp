@@ -76,7 +76,7 @@ const Fit kFits[] = {
       .offset_ratio = 0.5,
       .angle_deg = 30,
       .max_angle_deg = 125,
-      .tries = 16,
+      .tries = 8,
       .seed = 2},
      1.6}};
 
