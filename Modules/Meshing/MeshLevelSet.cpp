@@ -15,11 +15,12 @@ namespace myotet::meshing {
 namespace {
 
 // What a finished mesh shall not have where refining a few places can help: a
-// surface farther away than this part of the median edge, an aspect ratio.
-constexpr double kFarFault = 0.148, kShapeFault = 4.2;
+// surface farther away than this part of the median edge.
+constexpr double kFarFault = 0.148;
 // Share of tetrahedra at faults that still counts as a few, and tries to mend them.
 constexpr double kFewFaults = 1e-2;
 constexpr int kFaultRounds = 2;
+constexpr double kRegularAspectRatio = 1.225;  // sqrt(3 / 2), rounded up
 // Fitted to the 142 tissues of an arm, a trunk and a knee: how thick the layer of
 // small tetrahedra is, what grading adds, what thin parts multiply.
 constexpr double kShellEdges = 2.0, kGrading = 1.2, kThinFactor = 3.4, kThinPower = 1.8;
@@ -137,7 +138,7 @@ public:
             const Tet& n = mesh.tets[t];
             if (quality::measure(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
                                  mesh.points[n[3]])
-                    .aspect_ratio > kShapeFault)
+                    .aspect_ratio > options_.aspect_ratio)
                 faults.push_back(red_[t]);
         }
         if (static_cast<double>(faults.size()) > kFewFaults * static_cast<double>(mesh.tets.size()))
@@ -195,6 +196,8 @@ void Options::validate() const {
             "it must be 0 or at most the edge length");
     require(curvature_factor >= 0, "curvature factor", curvature_factor, "it must not be negative");
     require(thickness_factor >= 0, "thickness factor", thickness_factor, "it must not be negative");
+    require(aspect_ratio > kRegularAspectRatio, "aspect ratio", aspect_ratio,
+            "it must be greater than that of a regular tetrahedron, 1.225");
     require(volume >= 0, "volume", volume, "it must not be negative");
     require(!compression.empty(), "number of compressions", 0, "there must be at least one");
     for (std::size_t i = 1; i < compression.size(); ++i)

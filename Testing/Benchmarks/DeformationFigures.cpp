@@ -273,3 +273,9 @@ TEST(DeformationFigures, Armadillo) {
     if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
     compare(from_file("armadillo", file, 0.03));
 }
+
+TEST(DeformationFigures, Dragon) {
+    const fs::path file = kData / "surfaces_classic/quartet/dragon.obj";
+    if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
+    compare(from_file("dragon", file, 0.02));
+}

@@ -3,6 +3,8 @@
 // against what other meshers reach on the same surfaces.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "MeshFigures.h"
 
 using namespace myotet;
@@ -51,7 +53,8 @@ void expect_uniform(const fs::path& file, double fine, double coarse, double pee
 // Graded, of the size and to the shapes that the paper's table 1 asks for.
 void expect_graded(const fs::path& file, double edge, double tets, double aspect_ratio) {
     if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
-    const MeshFigures f = make(file, edge, 4, {.components = 1});
+    const MeshFigures f =
+        make(file, edge, 4, {.components = 1, .aspect_ratio = std::min(aspect_ratio, 4.2)});
     EXPECT_NEAR(static_cast<double>(f.tets), tets, 0.1 * tets);
     EXPECT_LE(f.shapes.max_aspect_ratio, aspect_ratio);
     EXPECT_GE(f.shapes.min_dihedral_deg, 22);
@@ -85,9 +88,10 @@ TEST(LatticeFigures, GradedBunny) {
     EXPECT_LT(f.shapes.mean_aspect_ratio, 2.2);
 }
 
-// An aspect ratio of 4.0 is asked; 4.07 to 4.17 was reached (Modules/Meshing/README.md).
+// At other edge lengths too: its worst elements depend on where the lattice lies.
 TEST(LatticeFigures, SkullOfTableOne) {
-    expect_graded(kClassic / "skull/skull.obj", 0.0205, 80000, 4.2);
+    for (const double edge : {0.0202, 0.0205, 0.0208})
+        expect_graded(kClassic / "skull/skull.obj", edge, 80000, 4.0);
 }
 TEST(LatticeFigures, DragonOfTableOne) {
     expect_graded(kData / "surfaces_classic/quartet/dragon.obj", 0.0064, 500000, 4.5);

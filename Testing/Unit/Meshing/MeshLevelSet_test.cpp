@@ -88,6 +88,19 @@ TEST(MeshLevelSet, VolumeAskedForIsReached) {
     }
 }
 
+TEST(MeshLevelSet, AnAspectRatioAskedForRefinesAtTheFewFaults) {
+    const auto phi = sample_level_set(cube(14), 0.4, torus);
+    Options options{.edge_length = 1.6, .components = 1};
+    const Result first = mesh_level_set(phi, options, quiet);
+    ASSERT_EQ(first.summary.fault_rounds, 0);
+    // Just less than the worst element has.
+    options.aspect_ratio = 0.99 * quality::measure_shapes(first.mesh).max_aspect_ratio;
+    const Result r = mesh_level_set(phi, options, quiet);
+    expect_promises(r.mesh);
+    EXPECT_GT(r.summary.fault_rounds, 0);
+    EXPECT_GT(r.mesh.tets.size(), first.mesh.tets.size());
+}
+
 TEST(MeshLevelSet, AThinNeckStaysOnePiece) {
     const auto phi = sample_level_set(cube(16), 0.25, dumbbell);
     expect_promises(mesh_level_set(phi, {.edge_length = 2}, quiet).mesh);
@@ -244,6 +257,9 @@ TEST(Options, SayWhichFieldIsWrong) {
                  InputError);
     EXPECT_THROW((void)mesh_level_set(phi, {.edge_length = 2, .smallest_edge_length = 3}, quiet),
                  InputError);
+    for (const double bad : {0.0, 1.2, std::nan("")})
+        EXPECT_THROW((void)mesh_level_set(phi, {.edge_length = 2, .aspect_ratio = bad}, quiet),
+                     InputError);
 }
 
 TEST(MeshLevelSet, WithoutRepairThePromisesBreakAndNothingInverts) {
