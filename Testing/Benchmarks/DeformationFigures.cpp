@@ -32,8 +32,8 @@ constexpr double kEnd = 0.05;
 
 // No element of a repaired mesh shrinks to less than this part of its volume.
 constexpr double kLeastDet = 0.1;
-// How much worse the worst element of the plainest choice is, over the loads: 1.7 and 1.6 were
-// measured.
+// How much worse the worst element of the plainest choice is, over the loads: 1.7, 1.6 and,
+// for the dragon, 1.12 were measured.
 constexpr double kWorse = 1.1;
 
 struct Shape {
