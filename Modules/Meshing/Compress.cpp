@@ -38,7 +38,7 @@ constexpr double kBad = 3.0;
 // The farthest place that there shall be, in median surface edges. Places count with this
 // power of their part of it, so that 15 % of an edge weighs as much as an aspect ratio of
 // 4.4; from kFar on their fit is tightened.
-constexpr double kFarthest = 0.14, kFarPower = 3, kFar = 0.8;
+constexpr double kFarthest = 0.14, kFarPower = 3, kFar = 0.63;
 // However far a place is, it counts as no more than this, so that no element is ruined for
 // it; beyond a quarter of an edge it is given up.
 constexpr float kMostFar = 1.0F, kHopeless = 5.7F;
