@@ -93,7 +93,8 @@ RunReport describe_run(const JobOptions& options, const Scan& scan, const meshin
         {"edge_length_mm", sizes.edge_length},
         {"interior_edge_length_mm", plan.coarsest_edge},
         {"smallest_edge_length_mm", plan.smallest_edge},
-        {"curvature", sizes.curvature_factor}};
+        {"curvature", sizes.curvature_factor},
+        {"max_aspect_ratio", sizes.aspect_ratio}};
     report.run.options_number.insert(report.run.options_number.begin(), numbers);
     return report;
 }

@@ -50,6 +50,7 @@ meshing::Options sizes_at(double edge_length, const SizeOptions& asked) {
     sizes.curvature_factor = asked.curvature;
     sizes.uniform = asked.uniform;
     sizes.draft = asked.draft;
+    if (asked.max_aspect_ratio > 0) sizes.aspect_ratio = asked.max_aspect_ratio;
     return with_edge_length(sizes, edge_length);
 }
 

@@ -14,6 +14,7 @@ struct SizeOptions {
     std::int64_t tets = 0;            ///< in all; 0: not said
     double interior_edge_length = 0;  ///< mm; 0: 4x the edge length
     double curvature = 0;             ///< refine where edge > factor / (|k1| + |k2|); 0: off
+    double max_aspect_ratio = 0;      ///< refine where few elements lie beyond; 0: not said
     bool uniform = false;             ///< one edge length everywhere
     bool draft = false;               ///< quick: the worst elements are left as they are
 };

@@ -58,6 +58,12 @@ void add_options(CLI::App& command, Arguments& a) {
                     "refine where the longest edge > FACTOR / (|k1| + |k2|) (default: off)")
         ->check(kPositive)
         ->type_name("FACTOR");
+    command
+        .add_option("--max-aspect-ratio", a.job.sizes.max_aspect_ratio,
+                    "refine, twice at most, where a few elements of the finished mesh lie "
+                    "beyond this (default: 4.2)")
+        ->check(CLI::Range(1.5, 1000.0))
+        ->type_name("RATIO");
     add_level_set_options(command, a.job.level_sets);
     using meshing::Compression;
     static const std::map<std::string, Compression> kinds = {
@@ -114,6 +120,16 @@ void check_compression(const std::vector<meshing::Compression>& kinds) {
                 "--compress: springs and fem begin from the candidate; name one of them, first");
 }
 
+/// Where faults are not mended there is no limit to keep to.
+void check_aspect_ratio(const JobOptions& job) {
+    const bool optimised =
+        job.compression.empty() || job.compression.back() == meshing::Compression::optimization;
+    if (job.sizes.max_aspect_ratio > 0 && (job.sizes.uniform || job.sizes.draft || !optimised))
+        throw UsageError(
+            "--max-aspect-ratio is for graded, optimised meshes of standard quality: leave "
+            "--lattice uniform, --quality draft and --compress springs or fem out");
+}
+
 /// One edge length leaves nothing to grade.
 void check_lattice(const SizeOptions& sizes) {
     if (sizes.uniform && (sizes.interior_edge_length > 0 || sizes.curvature > 0))
@@ -125,6 +141,7 @@ void check_lattice(const SizeOptions& sizes) {
 ExitCode run(const Arguments& a) {
     check_compression(a.job.compression);
     check_lattice(a.job.sizes);
+    check_aspect_ratio(a.job);
     const Verbosity verbosity = a.talk.verbosity();
     set_up_log(verbosity);
     RunReport report;

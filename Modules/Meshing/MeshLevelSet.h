@@ -38,8 +38,8 @@ struct Options {
     double distance_factor = 0.08;
     int distance_rounds = 3;  ///< times that this may be done
     /// Refine, twice at most, where a few elements of the finished mesh lie beyond this. A
-    /// round costs half as much again as all before. Off with
-    /// distance_factor, in drafts and by physics alone.
+    /// round costs half as much again as all before. Off with distance_factor, in drafts and
+    /// by physics alone.
     double aspect_ratio = 4.2;
     /// Stop after the lattice fits when it has fewer or more tetrahedra than these;
     /// 0: no bound. The mesh is then valid but not finished.

@@ -69,6 +69,15 @@ TEST_F(Refusals, CommandLinesThatMakeNoSense) {
     refused(kUsage, scan(), {"--compress", "rubber"});
     refused(kUsage, scan(), {"--compress", "optimization,fem"});
     refused(kUsage, scan(), {"--lattice", "uniform", "--curvature", "1"});
+    for (const std::vector<std::string>& unmended :
+         {std::vector<std::string>{"--lattice", "uniform"},
+          {"--quality", "draft"},
+          {"--compress", "fem"}}) {
+        std::vector<std::string> options{"--max-aspect-ratio", "4"};
+        options.insert(options.end(), unmended.begin(), unmended.end());
+        refused(kUsage, scan(), options);
+    }
+    refused(kUsage, scan(), {"--max-aspect-ratio", "1"});
     EXPECT_THAT(refused(kUsage, scan(), {"--quality", "best"}),
                 HasSubstr("'best' is none of draft, standard"));
     refused(kUsage, scan(), {"--orientation", "both"});

@@ -26,11 +26,13 @@ Scan ball_scan(double radius, const Vec3& spacing) {
 
 TEST(ChooseSizes, TakesTheEdgeLengthAsAsked) {
     const Scan scan = ball_scan(50, {1, 1, 1});
-    const meshing::Options sizes =
-        choose_sizes({.edge_length = 7, .interior_edge_length = 20, .curvature = 0.5}, scan);
+    const meshing::Options sizes = choose_sizes(
+        {.edge_length = 7, .interior_edge_length = 20, .curvature = 0.5, .max_aspect_ratio = 3.9},
+        scan);
     EXPECT_EQ(sizes.edge_length, 7);
     EXPECT_EQ(sizes.interior_edge_length, 20);
     EXPECT_EQ(sizes.curvature_factor, 0.5);
+    EXPECT_EQ(sizes.aspect_ratio, 3.9);
 }
 
 TEST(ChooseSizes, TheInsideIsNeverFinerThanTheSurface) {
