@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <pugixml.hpp>
 
 #include "Core/Errors.h"
+#include "Core/Text.h"
 #include "MeshFiles/RawMesh.h"
 
 namespace myotet::meshfiles {
@@ -13,25 +15,25 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t from = text.find_first_not_of(kBlank);
-    if (from == std::string_view::npos) return {};
-    return text.substr(from, text.find_last_not_of(kBlank) - from + 1);
-}
-
 }  // namespace
 
 VtkFile::VtkFile(std::string_view content, const std::filesystem::path& file, const char* type)
-    : content_(content), file_(file) {
+    : content_(content),
+      file_(file),
+      document_(std::make_unique<pugi::xml_document>()),
+      type_(type) {
     parse(split_from_appended());
-    const pugi::xml_node root = document_.child("VTKFile");
+    const pugi::xml_node root = document_->child("VTKFile");
     if (!root) fail(0, "begins no VTKFile");
     const std::string_view said = root.attribute("type").value();
     if (said != type)
         refuse(root, "is of type '" + std::string(said) + "', but " + type + " is needed");
     read_storage(root);
-    grid_ = root.child(type);
 }
+
+VtkFile::~VtkFile() = default;
+
+pugi::xml_node VtkFile::grid() const { return document_->child("VTKFile").child(type_); }
 
 /// The tags without the bytes that may follow them, which are kept.
 std::string VtkFile::split_from_appended() {
@@ -53,8 +55,8 @@ std::string VtkFile::split_from_appended() {
 
 void VtkFile::parse(std::string tags) {
     tags_ = std::move(tags);
-    const auto result = document_.load_buffer_inplace(tags_.data(), tags_.size(),
-                                                      pugi::parse_default, pugi::encoding_utf8);
+    const auto result = document_->load_buffer_inplace(tags_.data(), tags_.size(),
+                                                       pugi::parse_default, pugi::encoding_utf8);
     if (!result)
         fail(result.offset, std::string("is not valid XML (") + result.description() + ")");
 }
@@ -170,7 +172,7 @@ std::vector<std::int64_t> VtkFile::integers(const pugi::xml_node& array) const {
 }
 
 std::vector<std::string> VtkFile::texts(const char* name) const {
-    const pugi::xml_node found = find(grid_.child("FieldData"), name);
+    const pugi::xml_node found = find(grid().child("FieldData"), name);
     if (std::string_view(found.attribute("type").value()) != "String") return {};
     std::string bytes;
     if (is_text(found))

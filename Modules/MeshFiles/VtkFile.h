@@ -3,14 +3,20 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
-#include <pugixml.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "MeshFiles/Numbers.h"
 #include "MeshFiles/VtkBytes.h"
+
+namespace pugi {
+class xml_document;
+class xml_node;
+}  // namespace pugi
 
 namespace myotet::meshfiles {
 
@@ -21,8 +27,11 @@ class VtkFile {
 public:
     /// `type`: of the grid, the tag that holds the pieces.
     VtkFile(std::string_view content, const std::filesystem::path& file, const char* type);
+    ~VtkFile();
+    VtkFile(const VtkFile&) = delete;
+    VtkFile& operator=(const VtkFile&) = delete;
 
-    [[nodiscard]] pugi::xml_node grid() const { return grid_; }
+    [[nodiscard]] pugi::xml_node grid() const;
 
     /// The array of this name, or none.
     [[nodiscard]] static pugi::xml_node find(const pugi::xml_node& holder, const char* name);
@@ -63,8 +72,8 @@ private:
     bool appended_in_base64_ = true;
     VtkStorage storage_;
     std::string tags_;
-    pugi::xml_document document_;  ///< points into tags_
-    pugi::xml_node grid_;
+    std::unique_ptr<pugi::xml_document> document_;  ///< points into tags_
+    const char* type_;
 };
 
 }  // namespace myotet::meshfiles

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <pugixml.hpp>
 
 #include "MeshFiles/Numbers.h"
 #include "MeshFiles/RawMesh.h"
