@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
 #include <string>
 
+#include "Core/Parallel.h"
+#include "Core/Stopwatch.h"
+#include "Core/Text.h"
 #include "Dynamics/ElasticBody.h"
 #include "Dynamics/QuasiStatic.h"
 #include "Elasticity/LinearTet.h"
@@ -18,7 +22,6 @@
 #include "Support/AnalyticLevelSet.h"
 
 using namespace myotet;
-using bench::processor_seconds;
 namespace fs = std::filesystem;
 
 namespace {
@@ -33,7 +36,7 @@ constexpr double kEnd = 0.05;
 // No element of a repaired mesh shrinks to less than this part of its volume.
 constexpr double kLeastDet = 0.1;
 // How much worse the worst element of the plainest choice is, over the loads: 1.7, 1.6 and,
-// for the dragon, 1.12 were measured.
+// for the dragon, 1.14 were measured.
 constexpr double kWorse = 1.1;
 
 struct Shape {
@@ -128,7 +131,7 @@ const Load kLoads[] = {{"compressed to half", compress},
 struct Outcome {
     double aspect = 0, least_det = 1;  // the worst on the way
     dynamics::LoadSummary summary;
-    double seconds = 0;
+    double seconds = 0;  // by the clock, beside other loads
 };
 
 // The mesh with its long axis along z and its short one along x, around the origin.
@@ -175,7 +178,7 @@ Outcome deform(const TetMesh& mesh, const Load& load, double edge) {
     const auto rest = elasticity::rest_tets(mesh);
     Outcome outcome;
     dynamics::NodeVectors x = mesh.points;
-    const double start = processor_seconds();
+    Stopwatch watch;
     dynamics::LoadOptions options{.first_step = 0.1, .most_step = 0.1, .least_step = 2e-3};
     options.equilibrium.tolerance = 1e-5;
     outcome.summary = apply_load(load_case, options, x, [&](const dynamics::LoadState& state) {
@@ -183,7 +186,7 @@ Outcome deform(const TetMesh& mesh, const Load& load, double edge) {
         outcome.aspect = std::max(outcome.aspect, quality::measure_shapes(now).max_aspect_ratio);
         outcome.least_det = std::min(outcome.least_det, least_det(mesh, rest, state.x));
     });
-    outcome.seconds = processor_seconds() - start;
+    outcome.seconds = watch.lap();
     return outcome;
 }
 
@@ -219,15 +222,17 @@ void compare(const Shape& shape) {
         options.topology = way.topology;
         const TetMesh mesh = stand_up(meshing::mesh_level_set(shape.phi, options, quiet).mesh);
         print_mesh(way, mesh);
-        char cell[80];
-        std::snprintf(cell, sizeof cell, "| %s | %.2f ", way.name,
-                      quality::measure_shapes(mesh).max_aspect_ratio);
-        table += cell;
-        for (const Load& load : kLoads) {
-            const Outcome o = deform(mesh, load, shape.edge);
-            print(load, o);
-            std::snprintf(cell, sizeof cell, "| %.2f, %.2f ", o.aspect, o.least_det);
-            table += cell;
+        table +=
+            formatted("| %s | %.2f ", way.name, quality::measure_shapes(mesh).max_aspect_ratio);
+        std::array<Outcome, std::size(kLoads)> outcomes;
+        parallel_for(0, outcomes.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t l = first; l < last; ++l)
+                outcomes[l] = deform(mesh, kLoads[l], shape.edge);
+        });
+        for (std::size_t l = 0; l < outcomes.size(); ++l) {
+            const Outcome& o = outcomes[l];
+            print(kLoads[l], o);
+            table += formatted("| %.2f, %.2f ", o.aspect, o.least_det);
             EXPECT_GT(o.least_det, way.topology == meshing::Topology::repaired ? kLeastDet : 0);
             if (way.topology == meshing::Topology::repaired) {
                 EXPECT_TRUE(o.summary.completed) << way.name << ": " << o.summary.message;
@@ -277,5 +282,5 @@ TEST(DeformationFigures, Armadillo) {
 TEST(DeformationFigures, Dragon) {
     const fs::path file = kData / "surfaces_classic/quartet/dragon.obj";
     if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
-    compare(from_file("dragon", file, 0.02));
+    compare(from_file("dragon", file, 0.03));
 }
