@@ -11,7 +11,6 @@
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"
 #include "Costs.h"
-#include "Machine.h"
 #include "Outputs.h"
 #include "Report/Chart.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "Cage/Embedding.h"
-#include "Core/AtomicFile.h"
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Core/Sha256.h"
@@ -12,7 +11,6 @@
 #include "Core/Text.h"
 #include "Costs.h"
 #include "InputKind.h"
-#include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
 #include "MeshFiles/Npz.h"
 #include "Outputs.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ContractJob.h"
 
-#include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Costs.h"

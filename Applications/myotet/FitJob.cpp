@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FitJob.h"
 
-#include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Costs.h"
 #include "LevelSet/Extract.h"
 #include "LevelSet/WriteVdb.h"
-#include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Outputs.h"
 #include "ReportText.h"

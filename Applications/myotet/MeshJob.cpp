@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MeshJob.h"
 
-#include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Costs.h"
 #include "Machine.h"
 #include "MeshStages.h"
 #include "ReportText.h"
+#include "Text.h"
 
 namespace myotet::app {
 namespace {
@@ -17,6 +17,14 @@ Scan read(const JobOptions& options, ProgressSink& progress) {
     Scan scan = read_scan(options.scan);
     tell(scan, progress);
     return scan;
+}
+
+/// What was asked for and could not be had.
+void note_aspect_ratio(TissueReport& report, double asked) {
+    if (asked > 0 && report.shapes.max_aspect_ratio > asked)
+        report.notes.push_back("the largest aspect ratio is " +
+                               readable(report.shapes.max_aspect_ratio) + ", beyond the " +
+                               readable(asked) + " asked for; try a shorter --edge-length");
 }
 
 }  // namespace
@@ -58,6 +66,7 @@ RunReport run_job(const JobOptions& options, ProgressSink& progress) {
     for (std::size_t t = 0; t < tissues.size(); ++t) {
         progress.check();
         progress.report("writing", static_cast<double>(t) / static_cast<double>(tissues.size()));
+        note_aspect_ratio(tissues[t].report, options.sizes.max_aspect_ratio);
         if (tissues[t].report.broken_promises.empty()) meshes.write_tissue(tissues[t]);
         report.tissues.push_back(std::move(tissues[t].report));
         tissues[t].mesh = {};

@@ -2,7 +2,6 @@
 #include "PlayJob.h"
 
 #include "Contraction/Run.h"
-#include "Core/AtomicFile.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Core/Text.h"

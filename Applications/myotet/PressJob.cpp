@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "Contraction/Run.h"
-#include "Core/AtomicFile.h"
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Core/Sha256.h"

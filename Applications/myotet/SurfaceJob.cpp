@@ -3,12 +3,10 @@
 
 #include <algorithm>
 
-#include "Core/AtomicFile.h"
 #include "Core/Errors.h"
 #include "Core/Parallel.h"
 #include "Core/Stopwatch.h"
 #include "Costs.h"
-#include "Machine.h"
 #include "MeshFiles/MeshFiles.h"
 #include "Outputs.h"
 #include "SoftParts.h"

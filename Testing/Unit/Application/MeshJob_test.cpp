@@ -136,6 +136,16 @@ TEST(MeshJob, UniformLatticesAndDraftsKeepThePromises) {
     EXPECT_GT(d["min_dihedral_deg"], 14);
 }
 
+TEST(MeshJob, AnAspectRatioOutOfReachIsNoted) {
+    const testing::TemporaryFolder folder;
+    const Ran ran = mesh(write_phantom(folder, "sphere"), folder / "out",
+                         {"--edge-length", "4", "--max-aspect-ratio", "1.5", "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json report = Json::parse(ran.out);
+    EXPECT_EQ(report["options"]["max_aspect_ratio"], 1.5);
+    EXPECT_THAT(report["tissues"][0]["notes"].dump(), HasSubstr("beyond the 1.5 asked for"));
+}
+
 TEST(MeshJob, TableOnStdoutAndLogOnStderr) {
     const testing::TemporaryFolder folder;
     const fs::path scan = write_phantom(folder, "blocks");
