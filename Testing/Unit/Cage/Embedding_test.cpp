@@ -165,6 +165,9 @@ TEST(Embedding, same_on_one_thread_and_many) {
 }
 
 TEST(Embedding, a_hundred_thousand_points_move_in_little_time) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "sanitizers take most of the time";
+#endif
     const ThreadLimit limit(1);
     const TetMesh mesh = test::five_tet_block({10, 12, 14}, {8, 8, 8});
     const auto points = random_points(100000, {0, 0, 0}, {10, 12, 14});
@@ -176,7 +179,7 @@ TEST(Embedding, a_hundred_thousand_points_move_in_little_time) {
     const double each = double(std::clock() - start) / CLOCKS_PER_SEC / kTimes;
     RecordProperty("milliseconds", std::to_string(1e3 * each));
     std::printf("deform: %.3f ms of processor time for 100 000 points\n", 1e3 * each);
-    EXPECT_LT(each, 0.01) << "six frames of 60 a second; measured 0.5 to 1 ms";
+    EXPECT_LT(each, 0.01) << "0.6 frames of 60 a second; measured 0.5 to 1 ms";
 }
 
 }  // namespace
