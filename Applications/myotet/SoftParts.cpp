@@ -27,11 +27,12 @@ struct Parts {
 
 /// Marks the parts of which triangles cross another's; whether any are new.
 bool mark_crossing(const Parts& tissue, std::vector<char>& again) {
+    if (tissue.made.size() < 2) return false;
     TriMesh all;
     std::vector<std::size_t> owner;
     for (std::size_t i = 0; i < tissue.made.size(); ++i) {
         const TriMesh& mesh = tissue.made[i].made.mesh;
-        all = surface::joined(all.points, all.triangles, mesh);
+        surface::append(mesh, all);
         owner.insert(owner.end(), mesh.triangles.size(), i);
     }
     bool more = false;

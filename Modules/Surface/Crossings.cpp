@@ -131,15 +131,17 @@ std::vector<Pair> crossings(std::span<const Vec3> points, std::span<const Triang
     return pairs;
 }
 
+void append(const TriMesh& mesh, TriMesh& whole) {
+    const auto first = static_cast<std::int32_t>(whole.points.size());
+    whole.points.insert(whole.points.end(), mesh.points.begin(), mesh.points.end());
+    for (const Triangle& t : mesh.triangles)
+        whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
 TriMesh joined(std::span<const Vec3> points, std::span<const Triangle> triangles,
                const TriMesh& beside) {
-    TriMesh both;
-    both.points.assign(points.begin(), points.end());
-    both.points.insert(both.points.end(), beside.points.begin(), beside.points.end());
-    both.triangles.assign(triangles.begin(), triangles.end());
-    const auto first = static_cast<std::int32_t>(points.size());
-    for (const Triangle& t : beside.triangles)
-        both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    TriMesh both{{points.begin(), points.end()}, {triangles.begin(), triangles.end()}};
+    append(beside, both);
     return both;
 }
 

@@ -53,8 +53,9 @@ void expect_uniform(const fs::path& file, double fine, double coarse, double pee
 // Graded, of the size and to the shapes that the paper's table 1 asks for.
 void expect_graded(const fs::path& file, double edge, double tets, double aspect_ratio) {
     if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
-    const MeshFigures f =
-        make(file, edge, 4, {.components = 1, .aspect_ratio = std::min(aspect_ratio, 4.2)});
+    const MeshFigures f = make(
+        file, edge, 4,
+        {.components = 1, .aspect_ratio = std::min(aspect_ratio, meshing::Options{}.aspect_ratio)});
     EXPECT_NEAR(static_cast<double>(f.tets), tets, 0.1 * tets);
     EXPECT_LE(f.shapes.max_aspect_ratio, aspect_ratio);
     EXPECT_GE(f.shapes.min_dihedral_deg, 22);
