@@ -32,7 +32,7 @@ bool mark_crossing(const Parts& tissue, std::vector<char>& again) {
     std::vector<std::size_t> owner;
     for (std::size_t i = 0; i < tissue.made.size(); ++i) {
         const TriMesh& mesh = tissue.made[i].made.mesh;
-        surface::append(mesh, all);
+        surface::append(all, mesh);
         owner.insert(owner.end(), mesh.triangles.size(), i);
     }
     bool more = false;

@@ -10,6 +10,7 @@
 #include "MeshFiles/MeshFiles.h"
 #include "Outputs.h"
 #include "SoftParts.h"
+#include "Surface/Crossings.h"
 #include "SurfaceStock.h"
 
 namespace myotet::app {
@@ -76,13 +77,7 @@ struct Made {
 Made join_parts(const Tissue& tissue, const std::vector<SoftSurface>& parts,
                 const std::vector<const levelset::LevelSet*>& phis, const surface::Field& trim) {
     Made made{.report = {.tissue = tissue, .components = static_cast<int>(parts.size())}};
-    for (const SoftSurface& part : parts) {
-        const TriMesh& mesh = part.made.mesh;
-        const auto first = static_cast<std::int32_t>(made.mesh.points.size());
-        made.mesh.points.insert(made.mesh.points.end(), mesh.points.begin(), mesh.points.end());
-        for (const Triangle& t : mesh.triangles)
-            made.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
+    for (const SoftSurface& part : parts) surface::append(made.mesh, part.made.mesh);
     SurfaceTissue& report = made.report;
     report.cut = together(parts);
     report.quality = surface::measure(made.mesh, {.phi = field_of(phis), .trim = trim});

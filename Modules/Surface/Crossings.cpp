@@ -131,17 +131,17 @@ std::vector<Pair> crossings(std::span<const Vec3> points, std::span<const Triang
     return pairs;
 }
 
-void append(const TriMesh& mesh, TriMesh& whole) {
+void append(TriMesh& whole, const TriMesh& part) {
     const auto first = static_cast<std::int32_t>(whole.points.size());
-    whole.points.insert(whole.points.end(), mesh.points.begin(), mesh.points.end());
-    for (const Triangle& t : mesh.triangles)
+    whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+    for (const Triangle& t : part.triangles)
         whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 TriMesh joined(std::span<const Vec3> points, std::span<const Triangle> triangles,
                const TriMesh& beside) {
     TriMesh both{{points.begin(), points.end()}, {triangles.begin(), triangles.end()}};
-    append(beside, both);
+    append(both, beside);
     return both;
 }
 

@@ -26,8 +26,8 @@ struct Placed {
 [[nodiscard]] std::vector<std::array<std::int32_t, 2>> crossings(
     std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-/// Adds a mesh's points and triangles to another's, numbered on.
-void append(const TriMesh& mesh, TriMesh& whole);
+/// Adds a part's points and triangles, numbered on, to the whole.
+void append(TriMesh& whole, const TriMesh& part);
 
 /// One mesh after the other; points and triangles of the second are numbered on.
 [[nodiscard]] TriMesh joined(std::span<const Vec3> points, std::span<const Triangle> triangles,
